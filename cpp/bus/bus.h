@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <string>
+
+#include "bus/executor.h"
+
+namespace skein::bus {
+
+struct BusStatistics {
+  std::int64_t messages_in = 0;
+  std::int64_t messages_out = 0;
+  std::int64_t gaps = 0;
+  std::int64_t undecodable = 0;
+  std::int64_t handler_exceptions = 0;
+  std::int64_t worst_handler_us = 0;  ///< since TakeWorstHandler()
+};
+
+/// A node's typed view of the LCM bus. Every node has its own, also where several share one transport (memq).
+///
+///   Bus bus(transport, "collision-monitor", executor);
+///   bus.Subscribe<fleet_state_t>("FLEET_STATE", [&](const fleet_state_t& state) { ... });
+///   bus.Publish("PROXIMITY", proximity);
+///
+/// Publish from the executor's thread only. A handler gets messages that decoded wholly and whose values passed
+/// Valid() (bus/validate.h); anything else is counted and dropped. An exception that leaves a handler is counted and
+/// logged, never passed into LCM.
+class Bus {
+ public:
+  /// @param transport shared, not null. @param node the executable's name, as HEARTBEAT tells it.
+  Bus(std::shared_ptr<lcm::LCM> transport, std::string node, Executor& executor);
+  ~Bus();
+  Bus(const Bus&) = delete;
+  Bus& operator=(const Bus&) = delete;
+
+  template <typename Message>
+  void Subscribe(const std::string& channel, std::function<void(const Message&)> handler);
+
+  template <typename Message>
+  void Publish(const std::string& channel, const Message& message);
+
+  /// Adds to the gaps that HEARTBEAT reports (see ChunkAssembler).
+  void CountGaps(std::int64_t missed);
+
+  const std::string& node() const;
+  /// Identifies this run of the node; a later start has a larger one (utime of the start).
+  std::int64_t session_id() const;
+  const BusStatistics& statistics() const;
+  Executor& executor();
+  lcm::LCM& transport();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace skein::bus
