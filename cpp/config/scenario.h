@@ -1,0 +1,121 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/formation.h"
+#include "core/path.h"
+#include "core/proximity.h"
+#include "core/vehicle.h"
+
+namespace skein::config {
+
+/// A file that cannot be used. what() is "file: /path/in/the/file: reason".
+class ConfigError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Origin {
+  double latitude_deg = 0;
+  double longitude_deg = 0;
+  double altitude_m = 0;  ///< above the WGS-84 ellipsoid
+};
+
+/// What a UAV does when its uplink is lost.
+enum class UplinkLoss { kHoldLevelAfterOneSecond, kKeepLastCommand };
+
+/// One direction of a data link.
+struct LinkQuality {
+  double delay_s = 0;
+  double jitter_s = 0;  ///< added, uniform 0 .. jitter_s
+  double loss = 0;      ///< probability 0 .. 1
+};
+
+struct VehicleConfig {
+  int id = 0;
+  std::string callsign;
+  VehicleState start;
+  VehicleModel model;                    ///< what the roster tells the station
+  std::optional<AutopilotGains> actual;  ///< what it really flies with, when that differs (robustness trials)
+  UplinkLoss uplink_loss = UplinkLoss::kHoldLevelAfterOneSecond;
+  LinkQuality uplink;
+  LinkQuality downlink;
+  bool has_payload = true;
+};
+
+struct LeaderConfig {
+  double east_m = 0;
+  double north_m = 0;
+  double up_m = 0;
+  double speed_m_s = 50;
+  double course_rad = 0;  ///< counter-clockwise from east (compass degrees in the file)
+};
+
+/// Either waypoints or legs from the leader's start.
+struct PathConfig {
+  bool closed = false;
+  std::vector<Waypoint> waypoints;
+  std::vector<PathLeg> legs;
+};
+
+struct FormationConfig {
+  int id = 0;
+  std::string name;
+  std::string control = "skein";  ///< "skein" or "paper"
+  Shape shape = Shape::kCustom;
+  double spacing_m = 500;
+  double lead_m = 1000;
+  LeaderConfig leader;
+  std::vector<Slot> slots;  ///< always filled in, from the shape when the file names one
+  ProximityLimits proximity;
+  std::map<std::string, double> gains;  ///< beside the preset of the control
+  std::optional<PathConfig> path;
+};
+
+/// Something that happens at a time of the scenario.
+struct CutLink {
+  int vehicle_id = 0;
+  bool uplink = true;
+  bool downlink = true;
+  bool frozen = false;             ///< repeats its last state instead of falling silent
+  std::optional<double> for_s;     ///< until restored, when empty
+};
+struct RestoreLink {
+  int vehicle_id = 0;
+};
+struct SetLink {
+  int vehicle_id = 0;
+  std::optional<LinkQuality> uplink;
+  std::optional<LinkQuality> downlink;
+};
+struct TimelineEntry {
+  double at_s = 0;
+  std::variant<CutLink, RestoreLink, SetLink> action;
+};
+
+struct Scenario {
+  std::string name;
+  std::filesystem::path file;
+  double duration_s = 300;             ///< of flight-experiment; a live scenario goes on
+  Origin origin;
+  double ceiling_m = 1e9;              ///< no avoidance climb above this; "ceiling_m" in the file
+  ProximityLimits strangers = StrangerLimits();
+  std::vector<FormationConfig> formations;
+  std::vector<VehicleConfig> vehicles;
+  std::vector<TimelineEntry> timeline;  ///< in order of time
+  double timeline_repeat_s = 0;         ///< > 0: the timeline starts again every so often (live demonstrations)
+};
+
+/// Reads and checks a scenario. Throws ConfigError.
+Scenario LoadScenario(const std::filesystem::path& file);
+
+/// A path given by file name, or by the bare name of one that ships ("triangle", "triangle.json"): where it is.
+/// Throws ConfigError naming the folders that were searched.
+std::filesystem::path FindScenario(const std::string& name);
+
+}  // namespace skein::config

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/formation.h"
+#include "core/vehicle.h"
+
+namespace skein {
+
+/// A point that a path goes by. The corner is cut by an arc (fly-by), the path does not touch the point itself.
+struct Waypoint {
+  double east_m = 0;
+  double north_m = 0;
+  double up_m = 0;
+  double speed_m_s = 50;     ///< of the virtual leader, > 0
+  double turn_radius_m = 0;  ///< of the arc at this corner; 0: the smallest that all can fly in comfort
+};
+
+/// The other way to give a path: straight legs and turns, one after the other, from a start pose.
+struct PathLeg {
+  double length_m = 0;       ///< of a straight leg; unused in a turn
+  double turn_rad = 0;       ///< left positive; 0: a straight leg
+  double turn_radius_m = 0;  ///< of a turn
+  double ramp_s = 0;         ///< time of each curvature ramp of a turn; 0: what the limits ask for
+  double climb_m = 0;        ///< change of planned altitude along the leg
+  double speed_m_s = 0;      ///< planned speed at its end; 0: as before
+};
+
+/// Curvature is linear in arc length along a piece (straight, arc or clothoid).
+struct PathPiece {
+  double length_m = 0;
+  Eigen::Vector2d start{0, 0};      ///< east, north
+  double start_course_rad = 0;      ///< unwrapped along the path
+  double start_curvature_per_m = 0; ///< left positive
+  double end_curvature_per_m = 0;
+};
+
+/// A knot of the altitude and speed profiles over arc length; quintic with level ends in between.
+struct ProfileKnot {
+  double arc_m = 0;
+  double up_m = 0;
+  double speed_m_s = 0;
+};
+
+/// Everything about a path at one arc length.
+struct PathPoint {
+  double arc_m = 0;
+  Eigen::Vector2d position{0, 0};       ///< east, north
+  double course_rad = 0;                ///< theta, unwrapped
+  double curvature_per_m = 0;           ///< kappa = d theta / d s
+  double curvature_slope_per_m2 = 0;    ///< d kappa / d s
+  double up_m = 0;                      ///< planned altitude
+  double up_slope = 0;                  ///< d up / d s
+  double up_slope_rate_per_m = 0;       ///< d^2 up / d s^2
+  double speed_m_s = 0;                 ///< planned speed of the leader, ds/dt
+  double speed_slope_per_s = 0;         ///< d speed / d s
+};
+
+/// What all members of a formation can fly, and how far its slots reach from the leader.
+/// Limits are already multiplied by the share of each that planning may use (0.6).
+struct PathLimits {
+  double min_speed_m_s = 30;          ///< of the slowest slot; largest of the members' least speeds, with a margin
+  double max_speed_m_s = 90;          ///< of the fastest slot
+  double max_acceleration_m_s2 = 1.2;
+  double max_course_rate_rad_s = 0.12;
+  double max_climb_rad = 0.21;
+  double max_climb_rate_rad_s = 0.12;
+  double most_left_m = 0;             ///< of the slots, >= 0
+  double most_right_m = 0;            ///< of the slots, >= 0
+  double foremost_m = 0;              ///< largest forward of the slots
+  double hindmost_m = 0;              ///< least forward of the slots (-1000 for one slot 1000 m behind)
+};
+PathLimits LimitsOf(const std::vector<VehicleModel>& members, const std::vector<SlotOffset>& slots,
+                    double share = 0.6);
+
+/// The virtual leader's path: smooth, exact, endless both ways. A value; cheap to copy for short paths.
+/// Before its first piece it extends straight back (level, at the first planned speed). Past its end an open path goes on
+/// with its last curvature and altitude for good; a closed one repeats [loop_start, end).
+class Path {
+ public:
+  /// Straight on from a pose for good.
+  static Path Straight(const Eigen::Vector2d& start, double course_rad, double up_m, double speed_m_s);
+  Path(double start_arc_m, std::vector<PathPiece> pieces, std::vector<ProfileKnot> profile,
+       std::optional<double> loop_start_m);
+
+  PathPoint At(double arc_m) const;
+
+  double start_arc_m() const;
+  double end_arc_m() const;  ///< of the last piece
+  bool closed() const { return loop_start_m_.has_value(); }
+  std::optional<double> loop_start_m() const { return loop_start_m_; }
+  const std::vector<PathPiece>& pieces() const { return pieces_; }
+  const std::vector<ProfileKnot>& profile() const { return profile_; }
+
+ private:
+  double start_arc_m_ = 0;
+  std::vector<PathPiece> pieces_;
+  std::vector<ProfileKnot> profile_;
+  std::optional<double> loop_start_m_;
+};
+
+/// A path, or why there is none, in words for an operator.
+struct PathResult {
+  std::optional<Path> path;
+  std::string reason;
+};
+
+/// Through waypoints. A closed path needs 3 waypoints, an open one 2. Refused, with the waypoint's number (from 1): two
+/// identical waypoints in a row, a corner that turns back, legs too short for the arcs, a radius, climb or change of speed
+/// that a slot cannot fly, a loop shorter than the formation.
+PathResult PlanWaypoints(const std::vector<Waypoint>& waypoints, bool closed, const PathLimits& limits);
+
+/// From a pose along legs. Refused like PlanWaypoints, with the leg's number.
+PathResult PlanLegs(const Eigen::Vector2d& start, double course_rad, double up_m, double speed_m_s,
+                    const std::vector<PathLeg>& legs, const PathLimits& limits);
+
+/// From `arc_m` on `current` onto `next`, continuous in position, course, curvature, altitude and speed. The path behind arc_m
+/// stays (at least `keep_behind_m` of it), arc lengths go on counting. Joins `next` at its start or, for a resumed path, at
+/// `next_arc_m`.
+PathResult Join(const Path& current, double arc_m, const Path& next, double next_arc_m, double keep_behind_m,
+                const PathLimits& limits);
+
+/// From `arc_m` on `current` into the smallest circle that all can fly, for good. Turns the way that curvature already has, else left.
+PathResult Loiter(const Path& current, double arc_m, double keep_behind_m, const PathLimits& limits);
+
+/// Radius of that circle.
+double LoiterRadius(const PathLimits& limits, double speed_m_s);
+
+/// Empty when the whole path is within the limits, else what is not and where; used when a formation is edited in flight.
+std::string Violation(const Path& path, const PathLimits& limits);
+
+}  // namespace skein
