@@ -99,6 +99,13 @@ void Check(const VehicleModel& model) {
   }
 }
 
+AutopilotRates UnlimitedResponse(const VehicleState& state, const AutopilotInput& input,
+                                 const AutopilotGains& gains) {
+  return {gains.speed_per_s * (input.speed_m_s - state.speed_m_s),
+          gains.course_per_s * (input.course_rad - state.course_rad),
+          gains.climb_per_s * (input.climb_rad - state.climb_rad)};
+}
+
 AutopilotRates Respond(const VehicleState& state, const AutopilotInput& input, const VehicleModel& model) {
   return {RespondLoop(SpeedLoop(model), state.speed_m_s, input.speed_m_s),
           CourseRate(state.course_rad, input.course_rad, model),
