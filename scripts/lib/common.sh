@@ -42,7 +42,12 @@ node_is_new_enough() {
 
 # Puts the Node that scripts/setup installed first on PATH, if it had to.
 use_node() {
-  node_is_new_enough || PATH=$root/scripts/node/node_modules/.bin:$PATH
+  local modules=$root/scripts/node/node_modules folder
+  node_is_new_enough && return
+  # npm 9 does not link the programs of optional packages, so Node's own folder, too.
+  for folder in "$modules/.bin" "$modules"/node-linux-*/bin; do
+    PATH=$folder:$PATH
+  done
 }
 
 # digest FILE...: one checksum of the files' names and contents.
