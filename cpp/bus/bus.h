@@ -1,12 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <string>
 
+#include "bus/decode.h"
 #include "bus/executor.h"
+#include "bus/validate.h"
 
 namespace skein::bus {
 
@@ -25,9 +28,10 @@ struct BusStatistics {
 ///   bus.Subscribe<fleet_state_t>("FLEET_STATE", [&](const fleet_state_t& state) { ... });
 ///   bus.Publish("PROXIMITY", proximity);
 ///
-/// Publish from the executor's thread only. A handler gets messages that decoded wholly and whose values passed
-/// Valid() (bus/validate.h); anything else is counted and dropped. An exception that leaves a handler is counted and
-/// logged, never passed into LCM.
+/// Publish from the executor's thread only. A handler gets messages that decoded wholly and whose values
+/// passed Valid() (bus/validate.h); anything else is counted and dropped. An exception that leaves a handler
+/// is counted and logged, never passed into LCM. Subscriptions end with the Bus, so never destroy one within
+/// a handler.
 class Bus {
  public:
   /// @param transport shared, not null. @param node the executable's name, as HEARTBEAT tells it.
@@ -37,13 +41,26 @@ class Bus {
   Bus& operator=(const Bus&) = delete;
 
   template <typename Message>
-  void Subscribe(const std::string& channel, std::function<void(const Message&)> handler);
+  void Subscribe(const std::string& channel, std::function<void(const Message&)> handler) {
+    SubscribeBytes(channel, [handler = std::move(handler)](const void* data, std::size_t size) {
+      const auto message = Decode<Message>(data, size);
+      if (!message || !Valid(*message)) return false;
+      handler(*message);
+      return true;
+    });
+  }
 
   template <typename Message>
-  void Publish(const std::string& channel, const Message& message);
+  void Publish(const std::string& channel, const Message& message) {
+    std::byte* buffer = EncodeBuffer(static_cast<std::size_t>(message.getEncodedSize()));
+    PublishBytes(channel, message.encode(buffer, 0, message.getEncodedSize()));
+  }
 
   /// Adds to the gaps that HEARTBEAT reports (see ChunkAssembler).
   void CountGaps(std::int64_t missed);
+
+  /// Longest handler since the last call [us], for HEARTBEAT.
+  std::int64_t TakeWorstHandler();
 
   const std::string& node() const;
   /// Identifies this run of the node; a later start has a larger one (utime of the start).
@@ -53,6 +70,12 @@ class Bus {
   lcm::LCM& transport();
 
  private:
+  /// Returns whether the bytes were a good message.
+  using BytesHandler = std::function<bool(const void* data, std::size_t size)>;
+  void SubscribeBytes(const std::string& channel, BytesHandler handler);
+  std::byte* EncodeBuffer(std::size_t size);
+  void PublishBytes(const std::string& channel, int size);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

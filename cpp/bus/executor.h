@@ -11,11 +11,14 @@ using Utime = std::int64_t;
 
 inline constexpr Utime kSecond = 1'000'000;
 
-inline constexpr Utime ToUtime(double seconds) { return static_cast<Utime>(seconds * 1e6 + (seconds < 0 ? -0.5 : 0.5)); }
+inline constexpr Utime ToUtime(double seconds) {
+  return static_cast<Utime>(seconds * 1e6 + (seconds < 0 ? -0.5 : 0.5));
+}
 inline constexpr double ToSeconds(Utime utime) { return static_cast<double>(utime) * 1e-6; }
 
-/// Gives a node its time and its timers, so that the very same node runs live, in tests and in flight-experiment.
-/// All callbacks run on the one thread that runs the executor, never at the same time as a message handler.
+/// Gives a node its time and its timers, so that the very same node runs live, in tests and in
+/// flight-experiment. All callbacks run on the one thread that runs the executor, never at the same time as a
+/// message handler.
 class Executor {
  public:
   virtual ~Executor() = default;
@@ -23,10 +26,12 @@ class Executor {
   /// Live: the wall clock at the process's start plus the steady clock. Simulated: the simulated time.
   virtual Utime Now() const = 0;
 
-  /// Calls `callback` at phase + n * period for every n that lies in the future; a late one is called once, not made up for.
+  /// Calls `callback` at phase + n * period for every n that lies in the future; a late one is called once,
+  /// not made up for.
   virtual void Every(Utime period, std::function<void()> callback, Utime phase = 0) = 0;
 
-  /// Calls `callback` once, at `when` or, if that has passed, as soon as it can. Same time: in the order of the calls.
+  /// Calls `callback` once, at `when` or, if that has passed, as soon as it can. Same time: in the order of
+  /// the calls.
   virtual void At(Utime when, std::function<void()> callback) = 0;
 };
 

@@ -1,0 +1,46 @@
+#include "bus/chunk_order.h"
+
+namespace skein::bus {
+namespace {
+
+// A source that was silent for longer has been halted or set: it must show three stamps.
+constexpr Utime kLongestPause = 10 * kSecond;
+constexpr int kStampsNeeded = 3;
+
+}  // namespace
+
+bool SetOrder::FitsCurrent(const SetStamp& stamp) const {
+  return stamp.session_id == current_.session_id && stamp.set > current_.set &&
+         stamp.utime >= current_.utime && stamp.utime - current_.utime <= kLongestPause;
+}
+
+bool SetOrder::ThirdInARow(const SetStamp& stamp) {
+  if (candidate_stamps_ > 0 && stamp == candidate_) return false;  // another chunk of the same set
+  const bool rises = candidate_stamps_ > 0 && stamp.session_id == candidate_.session_id &&
+                     stamp.set > candidate_.set && stamp.utime > candidate_.utime &&
+                     stamp.utime - candidate_.utime <= kLongestPause;
+  candidate_stamps_ = rises ? candidate_stamps_ + 1 : 1;
+  candidate_ = stamp;
+  return candidate_stamps_ >= kStampsNeeded;
+}
+
+SetOrder::Verdict SetOrder::Judge(const SetStamp& stamp) {
+  Verdict verdict = Verdict::kOld;
+  if (started_ && stamp == current_) {
+    verdict = Verdict::kSame;
+  } else if (!started_ || stamp.session_id > current_.session_id) {
+    verdict = Verdict::kNewSource;
+  } else if (FitsCurrent(stamp)) {
+    verdict = Verdict::kNext;
+  } else if (ThirdInARow(stamp)) {
+    verdict = Verdict::kTakenAgain;
+  } else {
+    return Verdict::kOld;
+  }
+  started_ = true;
+  current_ = stamp;
+  candidate_stamps_ = 0;
+  return verdict;
+}
+
+}  // namespace skein::bus

@@ -1,0 +1,153 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/chunk_order.h"
+#include "bus/chunk_traits.h"
+#include "bus/events.h"
+
+namespace skein::bus {
+
+/// Encoded items in one chunk are at most this long [B]: see tests/bench/README.md for how it was chosen.
+inline constexpr int kChunkBytes = 8000;
+
+/// Splits a message into chunks of at most kChunkBytes of items; at least one chunk, even when there is
+/// nothing in it.
+template <typename Message>
+std::vector<Message> Split(const Message& whole, int chunk_bytes = kChunkBytes) {
+  using Traits = ChunkTraits<Message>;
+  Message empty = whole;
+  Traits::Items(empty).clear();
+  std::vector<Message> chunks{empty};
+  int bytes = 0;
+  for (const auto& item : Traits::Items(whole)) {
+    const int item_bytes = item._getEncodedSizeNoHash();
+    if (bytes > 0 && bytes + item_bytes > chunk_bytes) {
+      chunks.push_back(empty);
+      bytes = 0;
+    }
+    Traits::Items(chunks.back()).push_back(item);
+    bytes += item_bytes;
+  }
+  for (std::size_t i = 0; i < chunks.size(); ++i) {
+    chunks[i].chunk = static_cast<int>(i);
+    chunks[i].chunk_count = static_cast<int>(chunks.size());
+    Traits::SetCount(chunks[i], static_cast<int>(Traits::Items(chunks[i]).size()));
+  }
+  return chunks;
+}
+
+/// Publishes a message in chunks; chunk, chunk_count and the item count are filled in.
+template <typename Message>
+void PublishChunks(Bus& bus, const std::string& channel, const Message& whole) {
+  for (const Message& chunk : Split(whole)) bus.Publish(channel, chunk);
+}
+
+/// Puts the chunks of a set (a tick, a sweep) together again. The handler gets a set when its last chunk has
+/// come or, with what is there, when the next one begins. Duplicates and older sets are skipped. SetOrder
+/// says what else is taken.
+template <typename Message>
+class ChunkAssembler {
+ public:
+  /// @param whole all items in the order of the chunks, as chunk 0 of 1. @param missing how many chunks never
+  /// came.
+  using Handler = std::function<void(const Message& whole, int missing)>;
+
+  explicit ChunkAssembler(Handler handler) : handler_(std::move(handler)) {}
+
+  /// What Add found out beside the set.
+  struct Found {
+    std::int64_t gaps =
+        0;  ///< chunks and sets that are now known to be missing (a missing set counts as its chunks)
+    bool time_jumped = false;
+  };
+  Found Add(const Message& message);
+
+ private:
+  using Traits = ChunkTraits<Message>;
+
+  struct Stream {
+    SetOrder order;
+    std::map<int, Message> chunks;  ///< of the current set
+    int chunk_count = 0;
+    bool delivered = true;
+  };
+
+  int Deliver(Stream& stream);
+
+  // More streams than this are noise.
+  static constexpr std::size_t kMostStreams = 10'000;
+
+  Handler handler_;
+  std::map<std::int64_t, Stream> streams_;
+};
+
+template <typename Message>
+typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Message& message) {
+  if (streams_.size() >= kMostStreams && !streams_.contains(Traits::Stream(message))) return {};
+  Stream& stream = streams_[Traits::Stream(message)];
+  const std::int64_t last_set = stream.order.current().set;
+  const auto verdict = stream.order.Judge({Traits::Session(message), message.utime, Traits::Set(message)});
+  if (verdict == SetOrder::Verdict::kOld) return {};
+
+  Found found;
+  found.time_jumped = verdict == SetOrder::Verdict::kTakenAgain;
+  if (verdict != SetOrder::Verdict::kSame) {
+    if (!stream.delivered) found.gaps += Deliver(stream);
+    if (Traits::kConsecutive && verdict == SetOrder::Verdict::kNext) {
+      found.gaps += (Traits::Set(message) - last_set - 1) * message.chunk_count;
+    }
+    stream.chunks.clear();
+    stream.chunk_count = message.chunk_count;
+    stream.delivered = false;
+  }
+  if (stream.delivered || message.chunk_count != stream.chunk_count) return found;
+  stream.chunks.emplace(message.chunk, message);
+  if (static_cast<int>(stream.chunks.size()) == stream.chunk_count) Deliver(stream);
+  return found;
+}
+
+template <typename Message>
+int ChunkAssembler<Message>::Deliver(Stream& stream) {
+  const int missing = stream.chunk_count - static_cast<int>(stream.chunks.size());
+  Message whole = stream.chunks.begin()->second;
+  auto& items = Traits::Items(whole);
+  for (auto chunk = std::next(stream.chunks.begin()); chunk != stream.chunks.end(); ++chunk) {
+    const auto& more = Traits::Items(chunk->second);
+    items.insert(items.end(), more.begin(), more.end());
+  }
+  whole.chunk = 0;
+  whole.chunk_count = 1;
+  Traits::SetCount(whole, static_cast<int>(items.size()));
+  stream.chunks.clear();
+  stream.delivered = true;
+  handler_(whole, missing);
+  return missing;
+}
+
+/// Subscribes to a channel whose messages come in chunks. Gaps go to the Bus' statistics; a source whose time
+/// has jumped is told as the event "time_jumped" when `events` is given.
+template <typename Message>
+void SubscribeChunks(Bus& bus, const std::string& channel, typename ChunkAssembler<Message>::Handler handler,
+                     Events* events = nullptr) {
+  bus.Subscribe<Message>(
+      channel, [&bus, channel, events,
+                assembler = ChunkAssembler<Message>(std::move(handler))](const Message& message) mutable {
+        const auto found = assembler.Add(message);
+        bus.CountGaps(found.gaps);
+        if (found.time_jumped && events) {
+          events->Tell(event_t::ADVISORY, "time_jumped",
+                       "the time stamps of " + channel + " have jumped; they are taken again");
+        }
+      });
+}
+
+}  // namespace skein::bus

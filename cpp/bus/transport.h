@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <lcm/lcm-cpp.hpp>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace skein::bus {
+
+inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
+
+/// LCM_DEFAULT_URL when set, else kDefaultUrl.
+std::string DefaultUrl();
+
+/// Something outside of the program is not as it must be: no route, a taken port. what() tells what to do
+/// about it.
+class StartError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct Transport {
+  std::shared_ptr<lcm::LCM> lcm;
+  std::int64_t receive_buffer_bytes = 0;  ///< granted by the kernel; 0: not an UDP socket
+};
+
+/// Opens an LCM URL. Throws StartError; where a multicast route is missing, with the command that makes one.
+/// A receive buffer smaller than the URL asks for (recv_buf_size) is logged.
+Transport MakeTransport(const std::string& url);
+
+}  // namespace skein::bus
