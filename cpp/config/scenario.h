@@ -82,8 +82,8 @@ struct CutLink {
   int vehicle_id = 0;
   bool uplink = true;
   bool downlink = true;
-  bool frozen = false;             ///< repeats its last state instead of falling silent
-  std::optional<double> for_s;     ///< until restored, when empty
+  bool frozen = false;          ///< repeats its last state instead of falling silent
+  std::optional<double> for_s;  ///< until restored, when empty
 };
 struct RestoreLink {
   int vehicle_id = 0;
@@ -101,21 +101,21 @@ struct TimelineEntry {
 struct Scenario {
   std::string name;
   std::filesystem::path file;
-  double duration_s = 300;             ///< of flight-experiment; a live scenario goes on
+  double duration_s = 300;  ///< of flight-experiment; a live scenario goes on
   Origin origin;
-  double ceiling_m = 1e9;              ///< no avoidance climb above this; "ceiling_m" in the file
+  double ceiling_m = 1e9;  ///< no avoidance climb above this; "ceiling_m" in the file
   ProximityLimits strangers = StrangerLimits();
   std::vector<FormationConfig> formations;
   std::vector<VehicleConfig> vehicles;
   std::vector<TimelineEntry> timeline;  ///< in order of time
-  double timeline_repeat_s = 0;         ///< > 0: the timeline starts again every so often (live demonstrations)
+  double timeline_repeat_s = 0;  ///< > 0: the timeline starts again every so often (live demonstrations)
 };
 
 /// Reads and checks a scenario. Throws ConfigError.
 Scenario LoadScenario(const std::filesystem::path& file);
 
-/// A path given by file name, or by the bare name of one that ships ("triangle", "triangle.json"): where it is.
-/// Throws ConfigError naming the folders that were searched.
+/// A path given by file name, or by the bare name of one that ships ("triangle", "triangle.json"): where it
+/// is. Throws ConfigError naming the folders that were searched.
 std::filesystem::path FindScenario(const std::string& name);
 
 }  // namespace skein::config
