@@ -76,10 +76,11 @@ struct PathLimits {
   double max_course_rate_rad_s = 0.12;
   double max_climb_rad = 0.21;
   double max_climb_rate_rad_s = 0.12;
-  double most_left_m = 0;   ///< of the slots, >= 0
-  double most_right_m = 0;  ///< of the slots, >= 0
-  double foremost_m = 0;    ///< largest forward of the slots
-  double hindmost_m = 0;    ///< least forward of the slots (-1000 for one slot 1000 m behind)
+  double most_left_m = 0;    ///< of the slots, >= 0
+  double most_right_m = 0;   ///< of the slots, >= 0
+  double foremost_m = 0;     ///< largest forward of the slots
+  double hindmost_m = 0;     ///< least forward of the slots (-1000 for one slot 1000 m behind)
+  double clearance_m = 300;  ///< that head and tail keep when they meet on a loop or circle
 };
 PathLimits LimitsOf(const std::vector<VehicleModel>& members, const std::vector<SlotOffset>& slots,
                     double share = 0.6);
@@ -105,9 +106,8 @@ class Path {
 
   double start_arc_m() const { return piece_arcs_m_.front(); }
   double end_arc_m() const { return piece_arcs_m_.back(); }  ///< of the last piece
-  double lap_m() const {
-    return loop_start_m_ ? end_arc_m() - *loop_start_m_ : 0;
-  }                                                      ///< length of the loop; 0: open
+  /// Length of the loop; 0: open.
+  double lap_m() const { return loop_start_m_ ? end_arc_m() - *loop_start_m_ : 0; }
   double lap_turn_rad() const { return lap_turn_rad_; }  ///< change of course in one lap; 0: open
   bool closed() const { return loop_start_m_.has_value(); }
   std::optional<double> loop_start_m() const { return loop_start_m_; }
@@ -153,8 +153,8 @@ PathResult Join(const Path& current, double arc_m, const Path& next, double next
 /// curvature already has, else left.
 PathResult Loiter(const Path& current, double arc_m, double keep_behind_m, const PathLimits& limits);
 
-/// Radius of that circle.
-double LoiterRadius(const PathLimits& limits, double speed_m_s);
+/// Radius of that circle; none when no speed is within the limits of all slots.
+std::optional<double> LoiterRadius(const PathLimits& limits, double speed_m_s);
 
 /// Empty when the whole path is within the limits, else what is not and where; used when a formation is
 /// edited in flight.
