@@ -1,4 +1,4 @@
-"""The multicast route that LCM needs on a host without a network: for its own group only, and only while a flight lasts."""
+"""The multicast route that LCM needs on a host without a network: for its own group only, while a flight lasts."""
 
 import os
 import re
@@ -24,7 +24,8 @@ class Route:
             return
         command = _as_root("ip", "route", "add", f"{GROUP}/32", "dev", "lo")
         if subprocess.run(command, capture_output=True).returncode != 0:
-            raise RouteFailed(f"this machine has no route for multicast, and adding one is not permitted; do it by hand:\n"
+            raise RouteFailed(f"this machine has no route for multicast, and adding one is not permitted; "
+                              f"do it by hand:\n"
                               f"    sudo ip route add {GROUP}/32 dev lo\n"
                               f"and when you are done:\n"
                               f"    sudo ip route del {GROUP}/32 dev lo")

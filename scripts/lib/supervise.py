@@ -1,4 +1,4 @@
-"""Starts the processes of a flight, waits until they answer, keeps them running, and ends them. Called by scripts/run."""
+"""Starts the processes of a flight, waits until they answer, keeps them running, ends them. Called by scripts/run."""
 
 import argparse
 import json
@@ -76,8 +76,8 @@ class Process:
         now = time.monotonic()
         self.deaths = [at for at in self.deaths if now - at < DEATHS_WITHIN_S] + [now]
         if len(self.deaths) >= DEATHS:
-            say(f"{self.name} died {DEATHS} times within {DEATHS_WITHIN_S} s ({self.how_it_ended()}) and is not started "
-                f"again; the others go on. Its last lines ({self.output}):\n{self.last_lines()}")
+            say(f"{self.name} died {DEATHS} times within {DEATHS_WITHIN_S} s ({self.how_it_ended()}) "
+                f"and is not started again; the others go on. Its last lines ({self.output}):\n{self.last_lines()}")
             return False
         say(f"{self.name} died ({self.how_it_ended()}): started again")
         self.start()
