@@ -1,0 +1,149 @@
+/** Text messages of the live link (cpp/bridge/README.md). Names and units are those of the LCM fields. */
+
+export interface Hello {
+  type: "hello";
+  version: string;
+  lcm_url: string;
+  utime: number;
+  tile_url: string | null;
+  tile_attribution: string;
+}
+
+export interface Origin {
+  latitude_deg: number;
+  longitude_deg: number;
+  altitude_m: number;
+}
+
+export interface Vehicle {
+  id: number;
+  callsign: string;
+  model: string;
+  has_payload: boolean;
+}
+
+export interface Roster {
+  type: "roster";
+  utime: number;
+  scenario: string;
+  start_utime: number;
+  origin: Origin;
+  vehicles: Vehicle[];
+}
+
+export interface Slot {
+  vehicle_id: number;
+  forward_m: number;
+  left_m: number;
+  up_m: number;
+}
+
+export interface Formation {
+  type: "formation";
+  formation_id: number;
+  name: string;
+  control: string;
+  shape: string;
+  spacing_m: number;
+  hold: boolean;
+  slots: Slot[];
+}
+
+export interface FormationRemoved {
+  type: "formation_removed";
+  formation_id: number;
+}
+
+export interface Waypoint {
+  east_m: number;
+  north_m: number;
+  up_m: number;
+  speed_m_s: number;
+}
+
+export interface Path {
+  type: "path";
+  formation_id: number;
+  path_revision: number;
+  closed: boolean;
+  waypoints: Waypoint[];
+  /** [east_m, north_m, up_m] along the path as it will be flown. */
+  line: [number, number, number][];
+}
+
+export interface SlotStatus {
+  vehicle_id: number;
+  slot_east_m: number;
+  slot_north_m: number;
+  slot_up_m: number;
+  flown: boolean;
+}
+
+export interface FormationStatus {
+  type: "status";
+  utime: number;
+  formation_id: number;
+  mode: number;
+  mode_utime: number;
+  /** 0: not known. */
+  mode_end_utime: number;
+  mode_text: string;
+  leader_east_m: number;
+  leader_north_m: number;
+  leader_up_m: number;
+  leader_speed_m_s: number;
+  leader_course_rad: number;
+  slots: SlotStatus[];
+}
+
+export interface BusEvent {
+  type: "event";
+  utime: number;
+  event_node: string;
+  event_sequence: number;
+  severity: number;
+  code: string;
+  vehicle_id: number;
+  formation_id: number;
+  text: string;
+}
+
+export interface Heartbeat {
+  type: "heartbeat";
+  utime: number;
+  heartbeat_node: string;
+  gaps: number;
+  undecodable: number;
+}
+
+export interface Ack {
+  type: "ack";
+  id: string | null;
+  channel: string;
+  accepted: boolean;
+  reason: string;
+}
+
+export interface BusHealth {
+  type: "bus";
+  nodes_silent: string[];
+}
+
+export type ServerMessage =
+  | Hello
+  | Roster
+  | Formation
+  | FormationRemoved
+  | Path
+  | FormationStatus
+  | BusEvent
+  | Heartbeat
+  | Ack
+  | BusHealth;
+
+export interface CommandBodies {
+  CMD_LINK: { vehicle_id: number; mode: "up" | "silent" };
+  CMD_PAYLOAD: { vehicle_ids: number[]; on: boolean };
+}
+
+export type CommandChannel = keyof CommandBodies;

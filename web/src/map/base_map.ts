@@ -1,0 +1,53 @@
+/** What lies under everything: land and borders that are always there, and the operator's tiles when some are set. */
+import L from "leaflet";
+import type { Feature, FeatureCollection } from "geojson";
+import { feature, mesh } from "topojson-client";
+import type { GeometryCollection, Topology } from "topojson-specification";
+import atlas_url from "world-atlas/countries-50m.json?url";
+import type { Hello } from "../link/messages";
+import type { Colours } from "./colours";
+
+type Atlas = Topology<{ land: GeometryCollection; countries: GeometryCollection }>;
+
+/** Natural Earth's land and borders, served with the page. */
+export class Land {
+  private readonly land = L.featureGroup();
+  private readonly borders = L.featureGroup();
+  private colours: Colours | null = null;
+
+  constructor(map: L.Map) {
+    this.land.addTo(map);
+    this.borders.addTo(map);
+  }
+
+  async load(): Promise<void> {
+    const response = await fetch(atlas_url);
+    if (!response.ok) throw new Error(`${atlas_url}: ${response.status}`);
+    const atlas = (await response.json()) as Atlas;
+    const land = feature(atlas, atlas.objects.land) as Feature | FeatureCollection;
+    const borders = mesh(atlas, atlas.objects.countries, (a, b) => a !== b);
+    // The world three times over, so that a fleet at the date line has land on both sides.
+    for (const shift_deg of [0, -360, 360]) {
+      const options: L.GeoJSONOptions = {
+        interactive: false,
+        coordsToLatLng: (at) => L.latLng(at[1], at[0] + shift_deg),
+        attribution: "Natural Earth",
+      };
+      this.land.addLayer(L.geoJSON(land, options));
+      this.borders.addLayer(L.geoJSON(borders, options));
+    }
+    if (this.colours !== null) this.paint(this.colours);
+  }
+
+  paint(colours: Colours): void {
+    this.colours = colours;
+    this.land.setStyle({ color: colours.map_line, weight: 1, fillColor: colours.map_land, fillOpacity: 1 });
+    this.borders.setStyle({ color: colours.map_line, weight: 1, fill: false });
+  }
+}
+
+/** The tile layer that the bridge was told of; null without one. */
+export function tileLayer(hello: Hello | null): L.TileLayer | null {
+  if (hello === null || hello.tile_url === null) return null;
+  return L.tileLayer(hello.tile_url, { attribution: hello.tile_attribution, maxZoom: 19 });
+}

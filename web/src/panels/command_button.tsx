@@ -1,0 +1,96 @@
+import { useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+import type { Outcome } from "../link/commands";
+
+interface CommandButtonProps {
+  /** Sends the command. */
+  command: () => Promise<Outcome>;
+  label: string;
+  children: ComponentChildren;
+  class?: string;
+  /** For switches: what telemetry says. */
+  checked?: boolean;
+  disabled?: boolean;
+}
+
+const kShowRefusal_ms = 12_000;
+
+/** A button that commands the bus. It waits for the answer, and a refusal is shown right beside it until it is dismissed. */
+export function CommandButton(props: CommandButtonProps) {
+  const button = useRef<HTMLButtonElement>(null);
+  const waiting = useSignal(false);
+  const refusal = useSignal("");
+
+  const press = () => {
+    if (waiting.value) return;
+    waiting.value = true;
+    refusal.value = "";
+    void props.command().then((outcome) => {
+      waiting.value = false;
+      refusal.value = outcome.accepted ? "" : outcome.reason || "Refused.";
+    });
+  };
+  const role =
+    props.checked === undefined ? {} : ({ role: "switch", "aria-checked": props.checked } as const);
+
+  return (
+    <>
+      <button
+        type="button"
+        ref={button}
+        class={props.class ?? "button"}
+        aria-label={props.label}
+        title={props.label}
+        aria-busy={waiting.value}
+        disabled={props.disabled ?? false}
+        onClick={press}
+        {...role}
+      >
+        {props.children}
+      </button>
+      {refusal.value !== "" && (
+        <Refusal
+          text={refusal.value}
+          anchor={button.current}
+          dismiss={() => {
+            refusal.value = "";
+          }}
+        />
+      )}
+    </>
+  );
+}
+
+interface RefusalProps {
+  text: string;
+  anchor: HTMLElement | null;
+  dismiss: () => void;
+}
+
+/** Fixed on the screen beside its control: no table or panel cuts it off. */
+function Refusal({ text, anchor, dismiss }: RefusalProps) {
+  const dismissed = useRef(dismiss);
+  dismissed.current = dismiss;
+  useEffect(() => {
+    const timer = setTimeout(() => {
+      dismissed.current();
+    }, kShowRefusal_ms);
+    return () => {
+      clearTimeout(timer);
+    };
+  }, [text]);
+  const box = anchor?.getBoundingClientRect();
+  const place = {
+    right: `${window.innerWidth - (box?.right ?? 0)}px`,
+    bottom: `${window.innerHeight - (box?.top ?? 0) + 8}px`,
+  };
+  return (
+    <div class="refusal" role="alert" style={place}>
+      <span>{text}</span>
+      <button type="button" class="button quiet" aria-label="Dismiss" onClick={dismiss}>
+        ✕
+      </button>
+    </div>
+  );
+}

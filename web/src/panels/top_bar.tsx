@@ -1,0 +1,92 @@
+import type { Store } from "../state/store";
+import { theme_choice, type ThemeChoice } from "../state/settings";
+import { clock, kNone, utc } from "../units/format";
+import { Brand } from "./icons";
+
+export function TopBar({ store }: { store: Store }) {
+  const roster = store.roster.value;
+  return (
+    <header class="top-bar">
+      <Brand />
+      <h1>Skein</h1>
+      <span class="scenario" title={roster?.scenario}>
+        {roster?.scenario ?? ""}
+      </span>
+      <Clock store={store} />
+      <ConnectionPill store={store} />
+      <ThemeSwitch />
+    </header>
+  );
+}
+
+function Clock({ store }: { store: Store }) {
+  const utime = store.utimeAt(store.now_ms.value);
+  const start_utime = store.roster.value?.start_utime ?? 0;
+  return (
+    <dl class="clock">
+      <div>
+        <dt title="Since the scenario's start">T+</dt>
+        <dd class="elapsed">
+          {utime === null || start_utime === 0 ? kNone : clock((utime - start_utime) / 1e6)}
+        </dd>
+      </div>
+      <div>
+        <dt>UTC</dt>
+        <dd class="utc">{utime === null ? kNone : utc(utime)}</dd>
+      </div>
+    </dl>
+  );
+}
+
+/** How the page hears the fleet, in a word: always in sight. */
+function ConnectionPill({ store }: { store: Store }) {
+  const [state, text] = connectionWord(store, store.now_ms.value);
+  return (
+    <span class={`pill ${state}`} role="status" aria-label={`Connection: ${text}`}>
+      <svg viewBox="0 0 10 10" aria-hidden="true">
+        {state === "live" ? <circle cx="5" cy="5" r="4" /> : <path d="M1 1L9 9M9 1L1 9" />}
+      </svg>
+      {text}
+    </span>
+  );
+}
+
+function connectionWord(store: Store, now_ms: number): ["live" | "waiting" | "gone", string] {
+  const connection = store.connection.value;
+  if (connection.kind === "waiting") return ["gone", "Reconnecting…"];
+  if (connection.kind === "connecting")
+    return [
+      store.hello.value === null ? "waiting" : "gone",
+      store.hello.value === null ? "Connecting…" : "Reconnecting…",
+    ];
+  if (store.busSilence_s(now_ms) !== null) return ["gone", "Bus silent"];
+  if (store.fleet.motion === null) return ["waiting", "No fleet yet"];
+  return store.silent_nodes.value.length > 0 ? ["gone", "Part of the bus silent"] : ["live", "Live"];
+}
+
+const kThemes: readonly [ThemeChoice, string][] = [
+  ["system", "Auto"],
+  ["light", "Light"],
+  ["dark", "Dark"],
+];
+
+function ThemeSwitch() {
+  return (
+    <div class="segments" role="radiogroup" aria-label="Theme">
+      {kThemes.map(([choice, name]) => (
+        <label key={choice}>
+          <input
+            type="radio"
+            name="theme"
+            value={choice}
+            checked={theme_choice.value === choice}
+            onChange={() => {
+              theme_choice.value = choice;
+            }}
+          />
+          <span>{name}</span>
+        </label>
+      ))}
+    </div>
+  );
+}

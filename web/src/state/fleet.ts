@@ -1,0 +1,100 @@
+/**
+ * Bulk telemetry: the newest frames, as they came, outside the reactive state.
+ * Views look UAVs up by id and read the columns; they are told when to look by the map's frame clock or by the store's beat.
+ */
+import type { Frame, MotionFrame, StatusFrame } from "../link/frames";
+
+const kEmpty = new Map<number, number>();
+
+/** After this long without news, a position is no longer carried forward. */
+const kLongestExtrapolation_s = 2;
+
+export const kLinkUp = 0;
+export const kLinkLate = 1;
+export const kLinkLost = 2;
+
+export interface Place {
+  east_m: number;
+  north_m: number;
+  up_m: number;
+}
+
+export class Fleet {
+  motion: MotionFrame | null = null;
+  status: StatusFrame | null = null;
+  /** When the frames came (performance.now). */
+  arrival_ms = 0;
+  status_arrival_ms = 0;
+  private motion_rows: ReadonlyMap<number, number> = kEmpty;
+  private status_rows: ReadonlyMap<number, number> = kEmpty;
+
+  take(frame: Frame, now_ms: number): void {
+    if (frame.kind === "motion") {
+      this.motion_rows = rowsOf(frame.id, this.motion?.id, this.motion_rows);
+      this.motion = frame;
+      this.arrival_ms = now_ms;
+    } else {
+      this.status_rows = rowsOf(frame.id, this.status?.id, this.status_rows);
+      this.status = frame;
+      this.status_arrival_ms = now_ms;
+    }
+  }
+
+  clear(): void {
+    this.motion = null;
+    this.status = null;
+    this.motion_rows = kEmpty;
+    this.status_rows = kEmpty;
+  }
+
+  /** Row of a UAV in the columns of `motion`, -1: not there. */
+  motionRow(id: number): number {
+    return this.motion_rows.get(id) ?? -1;
+  }
+
+  /** Row of a UAV in the columns of `status`, -1: not there. */
+  statusRow(id: number): number {
+    return this.status_rows.get(id) ?? -1;
+  }
+
+  /** No news of this UAV: what is shown of it is old. */
+  isLost(id: number): boolean {
+    const row = this.statusRow(id);
+    return row >= 0 && this.status !== null && this.status.downlink[row] === kLinkLost;
+  }
+
+  /**
+   * Where the UAV in a row of `motion` is at `now_ms`: between frames it is carried along its velocity; one that is lost
+   * is where the monitor thinks it is.
+   */
+  placeAt(row: number, now_ms: number): Place {
+    const motion = this.motion;
+    if (motion === null) return { east_m: 0, north_m: 0, up_m: 0 };
+    const status_row = this.statusRow(motion.id[row]);
+    if (this.status !== null && status_row >= 0 && this.status.downlink[status_row] === kLinkLost) {
+      return {
+        east_m: this.status.estimated_east_m[status_row],
+        north_m: this.status.estimated_north_m[status_row],
+        up_m: this.status.estimated_up_m[status_row],
+      };
+    }
+    const since_frame_s = Math.max(0, (now_ms - this.arrival_ms) / 1000);
+    const ahead_s = Math.min(motion.age_s[row] + since_frame_s, kLongestExtrapolation_s);
+    const level_m = motion.speed_m_s[row] * Math.cos(motion.climb_rad[row]) * ahead_s;
+    return {
+      east_m: motion.east_m[row] + level_m * Math.cos(motion.course_rad[row]),
+      north_m: motion.north_m[row] + level_m * Math.sin(motion.course_rad[row]),
+      up_m: motion.up_m[row] + motion.speed_m_s[row] * Math.sin(motion.climb_rad[row]) * ahead_s,
+    };
+  }
+}
+
+/** The index of `ids`; that of the frame before, when they are the same. */
+function rowsOf(
+  ids: Int32Array,
+  before: Int32Array | undefined,
+  rows: ReadonlyMap<number, number>,
+): ReadonlyMap<number, number> {
+  if (before?.length === ids.length && ids.every((id, i) => id === before[i])) return rows;
+  return new Map([...ids].map((id, row) => [id, row]));
+}

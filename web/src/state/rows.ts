@@ -1,0 +1,85 @@
+/** One UAV as the table shows it: a plain record read out of the fleet's columns. */
+import { kFlown, kHasSlot, kPayloadOn } from "../link/frames";
+import type { Vehicle } from "../link/messages";
+import { kLinkUp, type Fleet } from "./fleet";
+
+export interface Neighbour {
+  id: number;
+  horizontal_m: number;
+  vertical_m: number;
+}
+
+export interface UavRow {
+  id: number;
+  callsign: string;
+  has_payload: boolean;
+  /** 0..3, -1: not judged yet. */
+  level: number;
+  /** link_status_t's numbers, 3: not judged. */
+  downlink: number;
+  uplink: number;
+  downlink_age_s: number;
+  uplink_age_s: number;
+  /** Slot minus UAV; null: it has no slot. */
+  error: { forward_m: number; left_m: number; up_m: number } | null;
+  /** False while the station doesn't command it: its errors are then dead-reckoned. */
+  flown: boolean;
+  nearest: Neighbour | null;
+  tau: { id: number; seconds: number } | null;
+  /** Null: never heard. */
+  motion: { up_m: number; speed_m_s: number; course_rad: number; payload_on: boolean } | null;
+  /** What is shown of it is old. */
+  stale: boolean;
+}
+
+const kUnknown = 3;
+
+export function uavRow(fleet: Fleet, vehicle: Vehicle, now_ms: number): UavRow {
+  const m = fleet.motionRow(vehicle.id);
+  const s = fleet.statusRow(vehicle.id);
+  const motion = m < 0 ? null : fleet.motion;
+  const status = s < 0 ? null : fleet.status;
+  const has_slot = status !== null && (status.flags[s] & kHasSlot) !== 0;
+  // Ages go on between two frames.
+  const older_s = Math.max(0, (now_ms - fleet.status_arrival_ms) / 1000);
+  const carriedOn = (age_s: number) => (age_s < 0 ? age_s : age_s + older_s);
+  const downlink = status === null ? kUnknown : status.downlink[s];
+  return {
+    id: vehicle.id,
+    callsign: vehicle.callsign,
+    has_payload: vehicle.has_payload,
+    level: status === null ? -1 : status.level[s],
+    downlink,
+    uplink: status === null ? kUnknown : status.uplink[s],
+    downlink_age_s: status === null ? -1 : carriedOn(status.downlink_age_s[s]),
+    uplink_age_s: status === null ? -1 : carriedOn(status.uplink_age_s[s]),
+    error:
+      status === null || !has_slot
+        ? null
+        : {
+            forward_m: status.forward_error_m[s],
+            left_m: status.left_error_m[s],
+            up_m: status.up_error_m[s],
+          },
+    flown: status !== null && (status.flags[s] & kFlown) !== 0,
+    nearest:
+      status === null || status.nearest_id[s] === 0
+        ? null
+        : {
+            id: status.nearest_id[s],
+            horizontal_m: status.nearest_horizontal_m[s],
+            vertical_m: status.nearest_vertical_m[s],
+          },
+    tau: status === null || status.tau_s[s] < 0 ? null : { id: status.tau_id[s], seconds: status.tau_s[s] },
+    motion:
+      motion === null
+        ? null
+        : {
+            up_m: motion.up_m[m],
+            speed_m_s: motion.speed_m_s[m],
+            course_rad: motion.course_rad[m],
+            payload_on: (motion.flags[m] & kPayloadOn) !== 0,
+          },
+    stale: downlink !== kLinkUp,
+  };
+}

@@ -1,0 +1,146 @@
+/** What the page knows: small things as signals, bulk telemetry in `fleet`. Views only read; `takeText` and `takeFrame` write. */
+import { signal } from "@preact/signals";
+import type { ConnectionState } from "../link/connection";
+import type { Frame } from "../link/frames";
+import type {
+  Ack,
+  BusEvent,
+  Formation,
+  FormationStatus,
+  Heartbeat,
+  Hello,
+  Path,
+  Roster,
+  ServerMessage,
+} from "../link/messages";
+import { Fleet } from "./fleet";
+
+const kMostEvents = 200;
+/** The bridge sends motion at 5 Hz or more while the bus lives. */
+const kBusSilence_ms = 2500;
+
+export class Store {
+  readonly fleet = new Fleet();
+  readonly connection = signal<ConnectionState>({ kind: "connecting" });
+  readonly hello = signal<Hello | null>(null);
+  readonly roster = signal<Roster | null>(null);
+  readonly formations = signal<ReadonlyMap<number, Formation>>(new Map());
+  readonly paths = signal<ReadonlyMap<number, Path>>(new Map());
+  readonly statuses = signal<ReadonlyMap<number, FormationStatus>>(new Map());
+  readonly heartbeats = signal<ReadonlyMap<string, Heartbeat>>(new Map());
+  readonly silent_nodes = signal<readonly string[]>([]);
+  /** Newest first. */
+  readonly events = signal<readonly BusEvent[]>([]);
+  readonly selected_id = signal<number | null>(null);
+  /** The time (performance.now), a few times a second: what goes with time or shows `fleet` reads it, and is drawn again. */
+  readonly now_ms = signal(performance.now());
+
+  constructor(private readonly onAck: (ack: Ack) => void) {}
+
+  takeText(text: string): void {
+    const message = JSON.parse(text) as ServerMessage;
+    switch (message.type) {
+      case "hello":
+        this.startOver(message);
+        break;
+      case "roster":
+        this.takeRoster(message);
+        break;
+      case "formation":
+        this.formations.value = withEntry(this.formations.value, message.formation_id, message);
+        break;
+      case "formation_removed":
+        this.formations.value = withoutEntry(this.formations.value, message.formation_id);
+        this.paths.value = withoutEntry(this.paths.value, message.formation_id);
+        this.statuses.value = withoutEntry(this.statuses.value, message.formation_id);
+        break;
+      case "path":
+        this.paths.value = withEntry(this.paths.value, message.formation_id, message);
+        break;
+      case "status":
+        this.statuses.value = withEntry(this.statuses.value, message.formation_id, message);
+        break;
+      case "event":
+        this.takeEvent(message);
+        break;
+      case "heartbeat":
+        this.heartbeats.value = withEntry(this.heartbeats.value, message.heartbeat_node, message);
+        break;
+      case "bus":
+        this.silent_nodes.value = message.nodes_silent;
+        break;
+      case "ack":
+        this.onAck(message);
+        break;
+    }
+  }
+
+  takeFrame(frame: Frame, now_ms: number): void {
+    this.fleet.take(frame, now_ms);
+  }
+
+  /** Time on the bus now [us], carried on from the newest frame; null before the first. */
+  utimeAt(now_ms: number): number | null {
+    const motion = this.fleet.motion;
+    return motion === null
+      ? null
+      : motion.utime + (this.isStale(now_ms) ? 0 : (now_ms - this.fleet.arrival_ms) * 1000);
+  }
+
+  /** What is on the screen is old: the bridge or the bus is gone. */
+  isStale(now_ms: number): boolean {
+    return this.connection.value.kind !== "open" || this.busSilence_s(now_ms) !== null;
+  }
+
+  /** For how long the bus has been silent; null while it is not, or before it was heard. */
+  busSilence_s(now_ms: number): number | null {
+    const motion = this.fleet.motion;
+    if (motion === null) return null;
+    const silence_ms = now_ms - this.fleet.arrival_ms;
+    return silence_ms > kBusSilence_ms ? silence_ms / 1000 : null;
+  }
+
+  callsign(id: number): string {
+    return this.roster.value?.vehicles.find((vehicle) => vehicle.id === id)?.callsign ?? `UAV ${id}`;
+  }
+
+  /** A bridge says hello first, then everything it knows: what it no longer knows is gone. */
+  private startOver(hello: Hello): void {
+    this.hello.value = hello;
+    this.formations.value = new Map();
+    this.paths.value = new Map();
+    this.statuses.value = new Map();
+    this.heartbeats.value = new Map();
+    this.silent_nodes.value = [];
+    this.events.value = [];
+  }
+
+  private takeRoster(roster: Roster): void {
+    const before = this.roster.value;
+    if (before !== null && before.start_utime !== roster.start_utime) this.fleet.clear();
+    this.roster.value = roster;
+    const selected = this.selected_id.value;
+    if (!roster.vehicles.some((vehicle) => vehicle.id === selected)) this.selected_id.value = null;
+  }
+
+  private takeEvent(event: BusEvent): void {
+    const known = this.events.value.some(
+      (other) =>
+        other.event_node === event.event_node &&
+        other.event_sequence === event.event_sequence &&
+        other.utime === event.utime,
+    );
+    if (known) return;
+    this.events.value = [event, ...this.events.value].sort((a, b) => b.utime - a.utime).slice(0, kMostEvents);
+  }
+}
+
+function withEntry<K, V>(map: ReadonlyMap<K, V>, key: K, value: V): ReadonlyMap<K, V> {
+  return new Map(map).set(key, value);
+}
+
+function withoutEntry<K, V>(map: ReadonlyMap<K, V>, key: K): ReadonlyMap<K, V> {
+  const copy = new Map(map);
+  copy.delete(key);
+  return copy;
+}
