@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <skein/fleet_command_t.hpp>
+#include <skein/fleet_roster_t.hpp>
+#include <skein/fleet_state_t.hpp>
+#include <skein/link_command_t.hpp>
+#include <skein/payload_command_t.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/command_inbox.h"
+#include "bus/events.h"
+#include "config/scenario.h"
+#include "simulator/link_schedule.h"
+#include "simulator/simulated_vehicle.h"
+
+namespace skein::simulator {
+
+struct SimulatorOptions {
+  config::Scenario scenario;
+  std::uint64_t seed = 1;  ///< of all lossy and jittered links
+};
+
+/// A fleet of UAVs with their data links, and the gateway that puts them on the bus. Tick n stands for
+/// start_utime() + n * kPeriod; at each one the UAVs fly on, then the links change as planned, then the UAVs
+/// report.
+class FleetSimulatorNode {
+ public:
+  static constexpr bus::Utime kPeriod = 50'000;
+
+  /// The first tick is now. @param bus outlives the node.
+  FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& options);
+  FleetSimulatorNode(const FleetSimulatorNode&) = delete;
+  FleetSimulatorNode& operator=(const FleetSimulatorNode&) = delete;
+
+  bus::Utime start_utime() const { return start_utime_; }
+  /// The last one that was flown; -1 before the first.
+  std::int64_t tick() const { return tick_; }
+  /// The true fleet, in the order of the scenario.
+  const std::vector<SimulatedVehicle>& fleet() const { return fleet_; }
+
+ private:
+  void Tick();
+  void Fly(std::int64_t tick);
+  void PublishState();
+  void Command(const fleet_command_t& command);
+  bus::Answer SetLink(const link_command_t& command);
+  bus::Answer SwitchPayload(const payload_command_t& command);
+  SimulatedVehicle* Find(int vehicle_id);
+
+  bus::Bus& bus_;
+  bus::Events events_;
+  bus::CommandInbox inbox_;
+  bus::Utime start_utime_;
+  std::int64_t tick_ = -1;
+  std::vector<SimulatedVehicle> fleet_;
+  std::unordered_map<int, std::size_t> index_;
+  LinkSchedule links_;
+  fleet_roster_t roster_;
+  std::int64_t command_session_id_ = 0;
+  std::int64_t command_request_id_ = 0;
+};
+
+}  // namespace skein::simulator
