@@ -1,10 +1,11 @@
 /** What lies under everything: land and borders that are always there, and the operator's tiles when some are set. */
 import L from "leaflet";
-import type { Feature, FeatureCollection } from "geojson";
+import type { FeatureCollection } from "geojson";
 import { feature, mesh } from "topojson-client";
 import type { GeometryCollection, Topology } from "topojson-specification";
 import atlas_url from "world-atlas/countries-50m.json?url";
 import type { Hello } from "../link/messages";
+import { flatLand, flatLines } from "./antimeridian";
 import type { Colours } from "./colours";
 
 type Atlas = Topology<{ land: GeometryCollection; countries: GeometryCollection }>;
@@ -24,8 +25,8 @@ export class Land {
     const response = await fetch(atlas_url);
     if (!response.ok) throw new Error(`${atlas_url}: ${response.status}`);
     const atlas = (await response.json()) as Atlas;
-    const land = feature(atlas, atlas.objects.land) as Feature | FeatureCollection;
-    const borders = mesh(atlas, atlas.objects.countries, (a, b) => a !== b);
+    const land = flatLand(feature(atlas, atlas.objects.land));
+    const borders = flatLines(mesh(atlas, atlas.objects.countries, (a, b) => a !== b));
     // The world three times over, so that a fleet at the date line has land on both sides.
     for (const shift_deg of [0, -360, 360]) {
       const options: L.GeoJSONOptions = {
@@ -33,7 +34,9 @@ export class Land {
         coordsToLatLng: (at) => L.latLng(at[1], at[0] + shift_deg),
         attribution: "Natural Earth",
       };
-      this.land.addLayer(L.geoJSON(land, options));
+      this.land.addLayer(
+        L.geoJSON({ type: "FeatureCollection", features: land } as FeatureCollection, options),
+      );
       this.borders.addLayer(L.geoJSON(borders, options));
     }
     if (this.colours !== null) this.paint(this.colours);

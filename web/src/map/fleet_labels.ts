@@ -65,11 +65,14 @@ export class FleetLabels {
     context.font = kNameFont;
     const name_width = context.measureText(this.store.callsign(sight.id)).width;
     context.font = kDataFont;
+    const course_rad = this.store.fleet.motion?.course_rad[sight.row] ?? 0;
     const data_width = context.measureText(this.data(sight).replace(/\d/g, "0")).width;
     return {
       id: sight.id,
       x: sight.x,
       y: sight.y,
+      heading_x: Math.cos(course_rad),
+      heading_y: -Math.sin(course_rad),
       clearance: sight.clearance_px + 3,
       width: Math.max(name_width, data_width) + 2 * kPadding_px,
       height: 2 * kLine_px + 2 * kPadding_px - 2,

@@ -14,6 +14,7 @@ import { Trails } from "./trails";
 import { pixelsPerMetre, viewOf } from "./view";
 
 const kGroundInterval_ms = 500;
+const kWaitForSlots_ms = 1500;
 
 /** What the scale shows. */
 export interface MapScale {
@@ -37,7 +38,9 @@ export class FleetMap {
   private start_utime = 0;
   private ground_drawn_ms = -Infinity;
   private ground_old = true;
+  /** The map is to be fitted; done when the fleet and its slots are known, or the fleet alone for a while. */
   private to_fit = true;
+  private fleet_seen_ms = Infinity;
   private animation = 0;
 
   constructor(
@@ -75,6 +78,11 @@ export class FleetMap {
     this.ground.remove();
     this.fleet.remove();
     this.map.remove();
+  }
+
+  /** Names those who made the map; the page places it where no panel covers it. */
+  get attribution(): HTMLElement {
+    return this.map.attributionControl.getContainer() ?? document.createElement("div");
   }
 
   fit(): void {
@@ -129,6 +137,7 @@ export class FleetMap {
     this.frame = localFrame(origin);
     this.start_utime = roster.start_utime;
     this.trails.clear();
+    this.fleet_seen_ms = Infinity;
     this.to_fit = true;
   }
 
@@ -136,7 +145,7 @@ export class FleetMap {
     this.animation = requestAnimationFrame(this.animate);
     if (this.frame !== null) {
       this.trails.sample(this.store.fleet, this.frame);
-      if (this.to_fit && this.camera.fit(this.frame, now_ms)) this.to_fit = false;
+      if (this.to_fit) this.fitNow(this.frame, now_ms);
       else if (this.following.peek()) this.camera.follow(this.frame, now_ms);
     }
     if (this.ground_old || now_ms - this.ground_drawn_ms > kGroundInterval_ms) {
@@ -147,6 +156,12 @@ export class FleetMap {
     }
     this.fleet.draw(this.frame, this.colours, now_ms);
   };
+
+  private fitNow(frame: LocalFrame, now_ms: number): void {
+    if (!this.camera.fit(frame, now_ms)) return;
+    this.fleet_seen_ms = Math.min(this.fleet_seen_ms, now_ms);
+    this.to_fit = this.store.statuses.peek().size === 0 && now_ms - this.fleet_seen_ms < kWaitForSlots_ms;
+  }
 
   private measure(): void {
     const view = viewOf(this.map);

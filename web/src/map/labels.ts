@@ -5,6 +5,9 @@ export interface LabelRequest {
   /** The symbol's middle [px]. */
   x: number;
   y: number;
+  /** Where it flies, a direction on the screen: the label rather goes elsewhere. */
+  heading_x: number;
+  heading_y: number;
   /** How far the label must stay from it [px]. */
   clearance: number;
   width: number;
@@ -45,7 +48,9 @@ const kSides = [
 ] as const;
 
 /** More than this part of a label may not be covered. */
-const kMostCovered = 0.15;
+const kMostCovered = 0.04;
+/** What it costs to lie right ahead of the symbol, over its velocity vector. */
+const kAheadCost = 0.3;
 /** A label keeps its side while that is not worse than the best by more than this part of it: no flicker. */
 const kPatience = 0.1;
 
@@ -87,7 +92,10 @@ function bestSide(
     const box = boxAt(request, compact, side);
     const covered = obstacles.reduce((sum, other) => sum + overlap(box, other), 0) / area(box);
     if (covered > kMostCovered) continue;
-    const cost = covered + side * 0.001 - (side === earlier ? kPatience : 0);
+    const [across, down] = kSides[side] ?? kSides[0];
+    const ahead = (across * request.heading_x + down * request.heading_y) / Math.hypot(across, down);
+    const cost =
+      covered + kAheadCost * Math.max(0, ahead) + side * 0.001 - (side === earlier ? kPatience : 0);
     if (best === null || cost < best.cost) best = { box, side, cost };
   }
   return best;

@@ -43,6 +43,7 @@ export function MapPanel({ store, freeArea }: MapPanelProps) {
     <>
       <div class="map" ref={container} role="application" aria-label="Map of the fleet" />
       {map.value !== null && <MapTools map={map.value} />}
+      {map.value !== null && <MapFoot map={map.value} />}
     </>
   );
 }
@@ -110,7 +111,20 @@ function MapTools({ map }: { map: FleetMap }) {
           </svg>
         </button>
       </div>
+    </div>
+  );
+}
+
+/** Below the map: scale and grid on the left, whose map it is on the right. */
+function MapFoot({ map }: { map: FleetMap }) {
+  const attribution = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    attribution.current?.replaceChildren(map.attribution);
+  }, [map]);
+  return (
+    <div class="map-foot">
       <Scale map={map} />
+      <div ref={attribution} />
     </div>
   );
 }

@@ -12,7 +12,7 @@ export const kLeader = new Path2D("M0 -10L8 9L0 4.500L-8 9Z");
 
 /** A slot: a ring with four ticks, to be filled by a UAV. */
 export const kSlot = new Path2D(
-  "M6 0A6 6 0 1 1 -6 0A6 6 0 1 1 6 0M0 -6V-9.500M0 6V9.500M-6 0H-9.500M6 0H9.500",
+  "M10 0A10 10 0 1 1 -10 0A10 10 0 1 1 10 0M0 -10V-14M0 10V14M-10 0H-14M10 0H14",
 );
 
 /** A waypoint: the four-pointed star of aeronautical charts. */

@@ -44,7 +44,7 @@ function ConnectionPill({ store }: { store: Store }) {
   return (
     <span class={`pill ${state}`} role="status" aria-label={`Connection: ${text}`}>
       <svg viewBox="0 0 10 10" aria-hidden="true">
-        {state === "live" ? <circle cx="5" cy="5" r="4" /> : <path d="M1 1L9 9M9 1L1 9" />}
+        {state === "gone" ? <path d="M1 1L9 9M9 1L1 9" /> : <circle cx="5" cy="5" r="4" />}
       </svg>
       {text}
     </span>

@@ -1,0 +1,100 @@
+import { expect, test } from "vitest";
+import type { Ack } from "../link/messages";
+import { motionFrame } from "./frames_for_tests";
+import { Store } from "./store";
+
+const kHello = {
+  type: "hello",
+  version: "0.1.0",
+  lcm_url: "udpm://x",
+  utime: 1,
+  tile_url: null,
+  tile_attribution: "",
+};
+const kRoster = {
+  type: "roster",
+  utime: 5,
+  scenario: "Test",
+  start_utime: 1000,
+  origin: { latitude_deg: 40, longitude_deg: 116, altitude_m: 0 },
+  vehicles: [{ id: 1, callsign: "UAV1", model: "default", has_payload: true }],
+};
+const event = (event_sequence: number, utime: number) => ({
+  type: "event",
+  utime,
+  event_node: "collision-monitor",
+  event_sequence,
+  severity: 2,
+  code: "link_lost",
+  vehicle_id: 1,
+  formation_id: 0,
+  text: "lost",
+});
+
+function filled(...messages: object[]): Store {
+  const store = new Store(() => undefined);
+  for (const message of messages) store.takeText(JSON.stringify(message));
+  return store;
+}
+
+test("formations, paths and statuses come and go", () => {
+  const of = (type: string) => ({ type, formation_id: 4, mode: 1, waypoints: [], line: [], slots: [] });
+  const store = filled(of("formation"), of("path"), of("status"));
+  expect(store.formations.value.has(4) && store.paths.value.has(4) && store.statuses.value.has(4)).toBe(true);
+  store.takeText(JSON.stringify({ type: "formation_removed", formation_id: 4 }));
+  expect(store.formations.value.size + store.paths.value.size + store.statuses.value.size).toBe(0);
+});
+
+test("events stand newest first, each once, the last 200", () => {
+  const store = filled(event(1, 10), event(3, 30), event(2, 20), event(3, 30));
+  expect(store.events.value.map((e) => e.event_sequence)).toEqual([3, 2, 1]);
+  for (let i = 4; i <= 300; i += 1) store.takeText(JSON.stringify(event(i, 10 * i)));
+  expect(store.events.value).toHaveLength(200);
+  expect(store.events.value[0]?.event_sequence).toBe(300);
+});
+
+test("a new hello forgets what the old bridge said, but keeps the last fleet on the screen", () => {
+  const store = filled(kHello, kRoster, event(1, 10));
+  store.takeFrame(motionFrame([1]), 0);
+  store.takeText(JSON.stringify(kHello));
+  expect(store.events.value).toEqual([]);
+  expect(store.roster.value?.scenario).toBe("Test");
+  expect(store.fleet.motion).not.toBeNull();
+});
+
+test("a scenario that starts anew clears the old telemetry", () => {
+  const store = filled(kRoster);
+  store.takeFrame(motionFrame([1]), 0);
+  store.takeText(JSON.stringify({ ...kRoster, utime: 6 }));
+  expect(store.fleet.motion).not.toBeNull();
+  store.takeText(JSON.stringify({ ...kRoster, start_utime: 2000 }));
+  expect(store.fleet.motion).toBeNull();
+});
+
+test("the selection goes with the UAV", () => {
+  const store = filled(kRoster);
+  store.selected_id.value = 1;
+  store.takeText(JSON.stringify({ ...kRoster, vehicles: [] }));
+  expect(store.selected_id.value).toBeNull();
+});
+
+test("what is shown is stale when the bridge or the bus is gone", () => {
+  const store = filled(kHello, kRoster);
+  expect(store.isStale(0)).toBe(true); // still connecting
+  store.connection.value = { kind: "open" };
+  store.takeFrame(motionFrame([1], { utime: 5e6 }), 1000);
+  expect(store.isStale(1500)).toBe(false);
+  expect(store.utimeAt(1500)).toBe(5.5e6);
+  expect(store.busSilence_s(4000)).toBe(3);
+  expect(store.utimeAt(4000)).toBe(5e6); // the clock stands still with the bus
+  store.connection.value = { kind: "waiting", attempt: 1, retry_at_ms: 0 };
+  expect(store.isStale(1500)).toBe(true);
+});
+
+test("answers go to whoever asked", () => {
+  const acks: Ack[] = [];
+  const store = new Store((ack) => acks.push(ack));
+  const ack = { type: "ack", id: "c1", channel: "CMD_LINK", accepted: true, reason: "" };
+  store.takeText(JSON.stringify(ack));
+  expect(acks).toEqual([ack]);
+});
