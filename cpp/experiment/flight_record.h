@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "config/scenario.h"
+#include "experiment/tick.h"
+
+namespace skein::experiment {
+
+/// Samples of one UAV, as the plot draws them.
+struct VehicleRecord {
+  int id = 0;
+  std::string callsign;
+  std::vector<double> t_s;
+  std::vector<double> east_m;
+  std::vector<double> north_m;
+  std::vector<double> up_m;
+  std::vector<double> speed_m_s;
+  std::vector<double> slot_t_s;  ///< of the errors; empty for a UAV in no formation
+  std::vector<double> forward_error_m;
+  std::vector<double> left_error_m;
+  std::vector<double> up_error_m;
+};
+
+/// A flight, sampled five times a second.
+struct FlightRecord {
+  std::string label;  ///< what tells this run from others
+  std::vector<VehicleRecord> vehicles;
+  std::vector<double> link_changes_s;  ///< when a data link was cut or restored
+};
+
+class FlightRecorder {
+ public:
+  FlightRecorder(const config::Scenario& scenario, std::string label);
+  void Add(const Tick& tick);
+  const FlightRecord& record() const { return record_; }
+
+ private:
+  FlightRecord record_;
+  std::vector<bool> cut_;  ///< as record_.vehicles
+};
+
+}  // namespace skein::experiment
