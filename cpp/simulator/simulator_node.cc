@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::int64_t kTicksPerRoster = bus::kSecond / FleetSimulatorNode::kPeriod;
 
+/// The roster of a large fleet is spread over some ticks: together with the state it would overrun receivers'
+/// buffers.
+constexpr int kRosterChunksPerTick = 2;
+
 /// A link longer than this would hold back more messages than anybody wants.
 constexpr double kLongestDelay_s = 60;
 
@@ -76,7 +80,8 @@ FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& op
              [this](const SimulatedVehicle& vehicle, const std::string& code, const std::string& text) {
                events_.Tell(event_t::INFO, code, text, {.vehicle_id = vehicle.id()});
              }),
-      roster_(MakeRoster(options.scenario, start_utime_, bus.session_id())) {
+      roster_(bus::Split(MakeRoster(options.scenario, start_utime_, bus.session_id()))),
+      roster_sent_(roster_.size()) {
   for (std::size_t i = 0; i < fleet_.size(); ++i) index_[fleet_[i].id()] = i;
   links_.AddTimeline(options.scenario.timeline, start_utime_, options.scenario.timeline_repeat_s);
 
@@ -94,13 +99,9 @@ FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& op
 void FleetSimulatorNode::Tick() {
   const std::int64_t due = (bus_.executor().Now() - start_utime_) / kPeriod;
   if (due <= tick_) return;
-  const std::int64_t before = tick_;
   // A process that was held up makes up for the flight, not for the reports that nobody can use any more.
   while (tick_ < due) Fly(tick_ + 1);
-  if (before < 0 || due / kTicksPerRoster > before / kTicksPerRoster) {
-    roster_.utime = start_utime_ + tick_ * kPeriod;
-    bus::PublishChunks(bus_, bus::channel::kFleetRoster, roster_);
-  }
+  PublishRoster();
   PublishState();
 }
 
@@ -117,6 +118,17 @@ void FleetSimulatorNode::Fly(std::int64_t tick) {
     }
   }
   links_.RunUntil(utime);
+}
+
+void FleetSimulatorNode::PublishRoster() {
+  if (roster_sent_ == roster_.size() && tick_ >= roster_due_) {
+    roster_sent_ = 0;
+    roster_due_ = tick_ + kTicksPerRoster;
+    for (fleet_roster_t& chunk : roster_) chunk.utime = start_utime_ + tick_ * kPeriod;
+  }
+  for (int i = 0; i < kRosterChunksPerTick && roster_sent_ < roster_.size(); ++i) {
+    bus_.Publish(bus::channel::kFleetRoster, roster_[roster_sent_++]);
+  }
 }
 
 void FleetSimulatorNode::PublishState() {

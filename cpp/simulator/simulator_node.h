@@ -44,6 +44,7 @@ class FleetSimulatorNode {
  private:
   void Tick();
   void Fly(std::int64_t tick);
+  void PublishRoster();
   void PublishState();
   void Command(const fleet_command_t& command);
   bus::Answer SetLink(const link_command_t& command);
@@ -58,7 +59,9 @@ class FleetSimulatorNode {
   std::vector<SimulatedVehicle> fleet_;
   std::unordered_map<int, std::size_t> index_;
   LinkSchedule links_;
-  fleet_roster_t roster_;
+  std::vector<fleet_roster_t> roster_;  ///< in chunks
+  std::size_t roster_sent_;             ///< how many of them in this round
+  std::int64_t roster_due_ = 0;         ///< tick of the next round
   std::int64_t command_session_id_ = 0;
   std::int64_t command_request_id_ = 0;
 };

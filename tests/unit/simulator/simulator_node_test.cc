@@ -185,6 +185,20 @@ TEST_F(SimulatorTest, SendsALargeFleetInChunks) {
   EXPECT_LT(largest, 200u);
 }
 
+TEST_F(SimulatorTest, SpreadsTheRosterOfALargeFleetOverSomeTicks) {
+  Start(ScenarioOf(1000));
+  int chunks = 0;
+  station_.Subscribe<fleet_roster_t>(channel::kFleetRoster, [&](const fleet_roster_t&) { ++chunks; });
+  for (int tick = 0; tick < 40; ++tick) {
+    chunks = 0;
+    RunUntil(tick * 0.05);
+    EXPECT_LE(chunks, 2) << tick;
+  }
+  ASSERT_EQ(rosters_.size(), 2u);
+  EXPECT_EQ(rosters_[1].vehicles.size(), 1000u);
+  EXPECT_EQ(rosters_[1].utime, SimulatedExecutor::kStart + kSecond);
+}
+
 TEST_F(SimulatorTest, FliesWhatItIsCommandedFromTheNextStepOn) {
   Start(ScenarioOf(2));
   RunUntil(1);
