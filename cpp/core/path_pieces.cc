@@ -64,9 +64,11 @@ Turn MakeTurn(double turn_rad, double curvature_per_m, double slope_per_m2) {
 
 double Chord(const Turn& turn) {
   if (turn.turn_rad == 0) return 0;
-  PieceChain chain({});
-  chain.Lay(turn);
-  return chain.end().position.dot(Direction(0.5 * turn.turn_rad));
+  // Twice the first half, seen along the bisector: the ramp by quadrature, half of the arc in closed form.
+  const double peak = std::abs(turn.peak_curvature_per_m);
+  const double half_rad = 0.5 * std::abs(turn.turn_rad);
+  const PathPiece ramp{turn.ramp_m, {0, 0}, -half_rad, 0, peak};
+  return 2 * (PoseOn(ramp, turn.ramp_m).position.x() + std::sin(0.5 * peak * turn.arc_m) / peak);
 }
 
 void PieceChain::Lay(double length_m, double start_curvature_per_m, double end_curvature_per_m) {

@@ -12,6 +12,11 @@ constexpr double kClimbAcceleration = 0.5;
 /// Marks closer together than this are one.
 constexpr double kSameArc_m = 1e-6;
 
+/// Levelling off uses this much of the limit of climb-angle rate: slots on the inside of a turn climb
+/// steeper.
+constexpr double kSettleShare = 0.4;
+constexpr double kSpeedSettle_s = 3;
+
 }  // namespace
 
 Jet Quintic(const Jet& start, const Jet& end, double length_m, double along_m) {
@@ -52,10 +57,18 @@ Jet Through(const std::vector<Mark>& marks, double arc_m) {
   return Quintic(before.jet, after->jet, after->arc_m - before.arc_m, arc_m - before.arc_m);
 }
 
-std::vector<ProfileKnot> Merge(const std::vector<Mark>& up, const std::vector<Mark>& speed) {
-  std::vector<double> arcs;
-  for (const Mark& mark : up) arcs.push_back(mark.arc_m);
-  for (const Mark& mark : speed) arcs.push_back(mark.arc_m);
+void Add(std::vector<Mark>& marks, double arc_m, const Jet& jet) {
+  if (marks.empty() || arc_m - marks.back().arc_m >= kSameArc_m) marks.push_back({arc_m, jet});
+}
+
+std::vector<ProfileKnot> Merge(const std::vector<Mark>& up, const std::vector<Mark>& speed, double from_m,
+                               double to_m) {
+  std::vector<double> arcs{from_m, to_m};
+  for (const std::vector<Mark>* marks : {&up, &speed}) {
+    for (const Mark& mark : *marks) {
+      if (mark.arc_m > from_m + kSameArc_m && mark.arc_m < to_m - kSameArc_m) arcs.push_back(mark.arc_m);
+    }
+  }
   std::sort(arcs.begin(), arcs.end());
   std::vector<ProfileKnot> knots;
   for (const double arc : arcs) {
@@ -63,6 +76,20 @@ std::vector<ProfileKnot> Merge(const std::vector<Mark>& up, const std::vector<Ma
     knots.push_back(MakeKnot(arc, Through(up, arc), Through(speed, arc)));
   }
   return knots;
+}
+
+double SettleRise(const Jet& start, double length_m) {
+  return length_m * (start.slope / 2 + start.rate * length_m / 12);
+}
+
+double ClimbSettleLength(const Jet& up, double speed_m_s, const PathLimits& limits) {
+  // The slope falls like a cubic, at most 1.5 times as fast as evenly.
+  return 1.5 * (std::abs(up.slope) + std::abs(up.rate) * speed_m_s) * speed_m_s /
+         (kSettleShare * limits.max_climb_rate_rad_s);
+}
+
+double SpeedSettleLength(const Jet& speed) {
+  return speed.slope == 0 && speed.rate == 0 ? 0 : kSpeedSettle_s * speed.value;
 }
 
 double ClimbLength(double height_m, double speed_m_s, const PathLimits& limits) {

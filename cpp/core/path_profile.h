@@ -38,9 +38,20 @@ struct Mark {
 /// last.
 Jet Through(const std::vector<Mark>& marks, double arc_m);
 
-/// Altitude and speed each through their own marks, as the one list of knots that gives exactly both. Marks
-/// of one quantity that (almost) coincide must be equal.
-std::vector<ProfileKnot> Merge(const std::vector<Mark>& up, const std::vector<Mark>& speed);
+/// A mark after the others, unless it falls on the last one (which it then equals).
+void Add(std::vector<Mark>& marks, double arc_m, const Jet& jet);
+
+/// Altitude and speed each through their own marks, as the one list of knots from from_m to to_m that gives
+/// exactly both.
+std::vector<ProfileKnot> Merge(const std::vector<Mark>& up, const std::vector<Mark>& speed, double from_m,
+                               double to_m);
+
+/// How a quantity levels off when its slope and slope rate fade to zero over a length: its change of value.
+double SettleRise(const Jet& start, double length_m);
+
+/// Length over which a climb levels off gently, and over which an acceleration ends.
+double ClimbSettleLength(const Jet& up, double speed_m_s, const PathLimits& limits);
+double SpeedSettleLength(const Jet& speed);
 
 /// Least length of a level-ended change of altitude that keeps the climb angle, its rate and the acceleration
 /// along the flight path (at a share of its limit) at up to speed_m_s.

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 
 #include "core/path.h"
 
@@ -15,22 +14,24 @@ namespace skein {
 /// are the slopes.
 inline void ExpectSmooth(const Path& path, double from_m, double to_m, double most_slope_per_m2 = 1e-3,
                          double step_m = 1) {
+  const double chord_error = 2e-5 + 2e-6 * step_m * step_m;
   PathPoint last = path.At(from_m);
   for (double arc = from_m + step_m; arc <= to_m; arc += step_m) {
     const PathPoint point = path.At(arc);
     const PathPoint middle = path.At(arc - 0.5 * step_m);
-    const std::string where = "at arc length " + std::to_string(arc);
     const Eigen::Vector2d direction = (point.position - last.position) / step_m;
-    ASSERT_NEAR(direction.x(), std::cos(middle.course_rad), 2e-5) << where;
-    ASSERT_NEAR(direction.y(), std::sin(middle.course_rad), 2e-5) << where;
+    ASSERT_NEAR(direction.x(), std::cos(middle.course_rad), chord_error) << "at arc length " << arc;
+    ASSERT_NEAR(direction.y(), std::sin(middle.course_rad), chord_error) << "at arc length " << arc;
     ASSERT_NEAR((point.course_rad - last.course_rad) / step_m, middle.curvature_per_m,
                 most_slope_per_m2 * step_m)
-        << where;
-    ASSERT_NEAR(point.curvature_per_m, last.curvature_per_m, most_slope_per_m2 * step_m) << where;
-    ASSERT_NEAR((point.up_m - last.up_m) / step_m, middle.up_slope, 1e-4) << where;
-    ASSERT_NEAR(point.up_slope, last.up_slope, 0.01 * step_m) << where;
-    ASSERT_NEAR((point.speed_m_s - last.speed_m_s) / step_m, middle.speed_slope_per_s, 1e-4) << where;
-    ASSERT_NEAR(point.speed_slope_per_s, last.speed_slope_per_s, 0.01 * step_m) << where;
+        << "at arc length " << arc;
+    ASSERT_NEAR(point.curvature_per_m, last.curvature_per_m, most_slope_per_m2 * step_m)
+        << "at arc length " << arc;
+    ASSERT_NEAR((point.up_m - last.up_m) / step_m, middle.up_slope, 1e-4 * step_m) << "at arc length " << arc;
+    ASSERT_NEAR(point.up_slope, last.up_slope, 0.01 * step_m) << "at arc length " << arc;
+    ASSERT_NEAR((point.speed_m_s - last.speed_m_s) / step_m, middle.speed_slope_per_s, 1e-4 * step_m)
+        << "at arc length " << arc;
+    ASSERT_NEAR(point.speed_slope_per_s, last.speed_slope_per_s, 0.01 * step_m) << "at arc length " << arc;
     last = point;
   }
 }
@@ -59,17 +60,20 @@ inline void ExpectSlotsWithin(const Path& path, const PathLimits& limits, double
                               c = place(arcs[2], forward, left);
         const Eigen::Vector3d v0 = (b - a) / step_s, v1 = (c - b) / step_s;
         const double h0 = v0.head<2>().norm(), h1 = v1.head<2>().norm();
-        const std::string where = "leader at " + std::to_string(arc) + ", slot " + std::to_string(forward) +
-                                  ", " + std::to_string(left);
-        ASSERT_GE(h1 * slack, limits.min_speed_m_s) << where;
-        ASSERT_LE(h1, limits.max_speed_m_s * slack) << where;
+        ASSERT_GE(h1 * slack, limits.min_speed_m_s)
+            << "leader at " << arc << ", slot " << forward << ", " << left;
+        ASSERT_LE(h1, limits.max_speed_m_s * slack)
+            << "leader at " << arc << ", slot " << forward << ", " << left;
         const double turn = std::remainder(std::atan2(v1.y(), v1.x()) - std::atan2(v0.y(), v0.x()), 2 * M_PI);
-        ASSERT_LE(std::abs(turn) / step_s, limits.max_course_rate_rad_s * slack + 1e-4) << where;
+        ASSERT_LE(std::abs(turn) / step_s, limits.max_course_rate_rad_s * slack + 1e-4)
+            << "leader at " << arc << ", slot " << forward << ", " << left;
         ASSERT_LE(std::abs(v1.norm() - v0.norm()) / step_s, limits.max_acceleration_m_s2 * slack + 0.01)
-            << where;
+            << "leader at " << arc << ", slot " << forward << ", " << left;
         const double climb0 = std::atan2(v0.z(), h0), climb1 = std::atan2(v1.z(), h1);
-        ASSERT_LE(std::abs(climb1), limits.max_climb_rad * slack) << where;
-        ASSERT_LE(std::abs(climb1 - climb0) / step_s, limits.max_climb_rate_rad_s * slack + 1e-4) << where;
+        ASSERT_LE(std::abs(climb1), limits.max_climb_rad * slack)
+            << "leader at " << arc << ", slot " << forward << ", " << left;
+        ASSERT_LE(std::abs(climb1 - climb0) / step_s, limits.max_climb_rate_rad_s * slack + 1e-4)
+            << "leader at " << arc << ", slot " << forward << ", " << left;
       }
     }
   }

@@ -103,7 +103,7 @@ TEST(Path, LevelEndedQuinticHasTheExtremesThatTheLimitsUse) {
 TEST(Path, MergedProfilesAreBothProfilesExactly) {
   const std::vector<Mark> up{{0, {100}}, {1000, {200}}, {3000, {50}}};
   const std::vector<Mark> speed{{200, {50}}, {1000, {50}}, {2500, {70}}};
-  const Path path(0, {{5000, {0, 0}, 0, 0, 0}}, Merge(up, speed), std::nullopt);
+  const Path path(0, {{5000, {0, 0}, 0, 0, 0}}, Merge(up, speed, 0, 3000), std::nullopt);
   for (double arc = -100; arc < 4000; arc += 7) {
     const PathPoint point = path.At(arc);
     ASSERT_NEAR(point.up_m, Through(up, arc).value, 1e-9) << arc;
