@@ -1,0 +1,155 @@
+#include "controller/controller_node.h"
+
+#include <algorithm>
+
+#include "bus/channels.h"
+#include "bus/chunks.h"
+#include "bus/conversions.h"
+#include "controller/formation_message.h"
+#include "core/frames.h"
+
+namespace skein::controller {
+
+FormationControllerNode::FormationControllerNode(bus::Bus& bus, const ControllerOptions& options)
+    : bus_(bus), options_(options), events_(bus), inbox_(bus) {
+  bus::SubscribeChunks<fleet_roster_t>(
+      bus_, bus::channel::kFleetRoster, [this](const fleet_roster_t& roster, int) { OnRoster(roster); },
+      &events_);
+  bus::SubscribeChunks<fleet_state_t>(
+      bus_, bus::channel::kFleetState, [this](const fleet_state_t& state, int) { OnFleetState(state); },
+      &events_);
+  bus::SubscribeChunks<link_status_t>(bus_, bus::channel::kLinkStatus,
+                                      [this](const link_status_t& status, int) { OnLinkStatus(status); });
+  inbox_.Obey<formation_command_t>(bus::channel::kCmdFormation, [this](const formation_command_t& command) {
+    return OnFormationCommand(command);
+  });
+  inbox_.Obey<path_command_t>(bus::channel::kCmdPath,
+                              [this](const path_command_t& command) { return OnPathCommand(command); });
+  // For those who join late.
+  bus_.executor().Every(bus::kSecond, [this] {
+    for (const auto& [id, flight] : flights_) SendFormation(flight);
+    SaveState();
+  });
+}
+
+void FormationControllerNode::OnRoster(const fleet_roster_t& roster) {
+  for (const vehicle_info_t& info : roster.vehicles) {
+    VehicleView& view = fleet_[info.id];
+    view.id = info.id;
+    view.callsign = info.callsign;
+    view.model = bus::ToVehicleModel(info);
+  }
+  if (roster.start_utime == start_utime_) return;
+  const bool again = start_utime_ != 0;
+  start_utime_ = roster.start_utime;
+  // A fleet that starts anew knows nothing of what was flown before.
+  tick_utime_ = 0;
+  flights_.clear();
+  held_.clear();
+  for (auto& [id, view] : fleet_) {
+    view.state.reset();
+    view.lost = false;
+  }
+  std::erase_if(fleet_, [&](const auto& entry) {
+    return std::none_of(roster.vehicles.begin(), roster.vehicles.end(),
+                        [&](const vehicle_info_t& info) { return info.id == entry.first; });
+  });
+  if (again)
+    events_.Tell(event_t::INFO, "fleet_restarted", "the fleet has started anew; so do the formations");
+  if (!RestoreState()) StartScenario();
+}
+
+void FormationControllerNode::OnLinkStatus(const link_status_t& status) {
+  for (const vehicle_link_t& link : status.links) {
+    const auto view = fleet_.find(link.id);
+    if (view == fleet_.end()) continue;
+    view->second.lost = link.downlink == link_status_t::LINK_LOST || link.uplink == link_status_t::LINK_LOST;
+  }
+}
+
+void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
+  if (state.utime <= tick_utime_) return;
+  tick_utime_ = state.utime;
+  tick_ = state.tick;
+  for (auto& [id, view] : fleet_) view.fresh = false;
+  for (const vehicle_state_t& vehicle : state.vehicles) {
+    const auto view = fleet_.find(vehicle.id);
+    if (view == fleet_.end() || (view->second.state && vehicle.utime <= view->second.state_utime)) continue;
+    view->second.state = bus::ToVehicleState(vehicle);
+    view->second.state_utime = vehicle.utime;
+    view->second.fresh = true;
+  }
+
+  std::vector<FlightCommand> commands = HoldTheRest();
+  for (auto& [id, flight] : flights_) {
+    FlightStep step = flight.Step(fleet_, tick_utime_);
+    commands.insert(commands.end(), step.commands.begin(), step.commands.end());
+    for (const FlightEvent& event : step.events) Tell(flight, event);
+  }
+  SendCommands(commands);
+  if (tick_ % options_.status_every_ticks == 0) SendStatuses();
+}
+
+std::vector<FlightCommand> FormationControllerNode::HoldTheRest() {
+  std::vector<FlightCommand> commands;
+  for (const auto& [id, view] : fleet_) {
+    const bool flown = std::any_of(flights_.begin(), flights_.end(),
+                                   [id = id](const auto& entry) { return entry.second.HasMember(id); });
+    if (flown || !view.state) {
+      held_.erase(id);
+      continue;
+    }
+    const VehicleState& held = held_.try_emplace(id, *view.state).first->second;
+    // One that is not heard is still commanded, so that its uplink can be judged.
+    if (view.fresh || view.lost) commands.push_back({id, HoldAltitude(held, *view.state, view.model)});
+  }
+  return commands;
+}
+
+void FormationControllerNode::SendCommands(const std::vector<FlightCommand>& commands) {
+  if (commands.empty()) return;
+  ++sequence_;
+  fleet_command_t whole;
+  whole.utime = tick_utime_;
+  whole.session_id = bus_.session_id();
+  whole.state_tick = tick_;
+  whole.commands.reserve(commands.size());
+  for (const FlightCommand& from : commands) {
+    vehicle_command_t command;
+    command.id = from.vehicle_id;
+    command.sequence = sequence_;
+    command.speed_input_m_s = from.output.input.speed_m_s;
+    command.course_input_rad = from.output.input.course_rad;
+    command.climb_input_rad = from.output.input.climb_rad;
+    command.setpoint_speed_m_s = from.output.setpoint.speed_m_s;
+    command.setpoint_course_rad = WrapAngle(from.output.setpoint.course_rad);
+    command.setpoint_climb_rad = from.output.setpoint.climb_rad;
+    command.setpoint_acceleration_m_s2 = from.output.rates.acceleration_m_s2;
+    command.setpoint_course_rate_rad_s = from.output.rates.course_rate_rad_s;
+    command.setpoint_climb_rate_rad_s = from.output.rates.climb_rate_rad_s;
+    whole.commands.push_back(command);
+  }
+  for (fleet_command_t& chunk : bus::Split(whole)) {
+    chunk.request_id = ++request_id_;
+    bus_.Publish(bus::channel::kCmdFleet, chunk);
+  }
+}
+
+void FormationControllerNode::SendFormation(const FormationFlight& flight) {
+  bus_.Publish(bus::channel::kFormation, FormationMessage(flight, bus_.executor().Now()));
+  bus_.Publish(bus::channel::kPath, PathMessage(flight, bus_.executor().Now()));
+}
+
+void FormationControllerNode::SendStatuses() {
+  for (const auto& [id, flight] : flights_) {
+    bus::PublishChunks(bus_, bus::channel::kFormationStatus, flight.Status(tick_));
+  }
+}
+
+void FormationControllerNode::Tell(const FormationFlight& flight, const FlightEvent& event) {
+  const std::string& name = flight.config().name;
+  const std::string text = flights_.size() < 2 ? event.text : (name + ": " + event.text);
+  events_.Tell(event.severity, event.code, text, {event.vehicle_id, flight.config().id});
+}
+
+}  // namespace skein::controller

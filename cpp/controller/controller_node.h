@@ -1,0 +1,81 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <skein/fleet_roster_t.hpp>
+#include <skein/fleet_state_t.hpp>
+#include <skein/formation_command_t.hpp>
+#include <skein/link_status_t.hpp>
+#include <skein/path_command_t.hpp>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/command_inbox.h"
+#include "bus/events.h"
+#include "config/scenario.h"
+#include "controller/fleet_picture.h"
+#include "controller/formation_flight.h"
+
+namespace skein::controller {
+
+struct ControllerOptions {
+  /// Formations, paths and airspace to start with; none: formations come by CMD_FORMATION.
+  std::optional<config::Scenario> scenario;
+  /// FORMATION_STATUS goes out each so many ticks of FLEET_STATE, >= 1.
+  int status_every_ticks = 4;
+  /// Where the state of all formations is kept, so that a controller that died picks up where it was; empty:
+  /// nowhere.
+  std::filesystem::path state_file;
+};
+
+/// formation-controller: wakes on each complete tick of FLEET_STATE and answers with CMD_FLEET.
+class FormationControllerNode {
+ public:
+  FormationControllerNode(bus::Bus& bus, const ControllerOptions& options);
+
+  const std::map<int, FormationFlight>& flights() const { return flights_; }
+
+ private:
+  // What the bus brings (controller_node.cc).
+  void OnRoster(const fleet_roster_t& roster);
+  void OnFleetState(const fleet_state_t& state);
+  void OnLinkStatus(const link_status_t& status);
+
+  // What starts and ends a flight (formation_start.cc).
+  void StartScenario();
+  std::string StartFlight(const config::FormationConfig& config);
+  std::optional<VirtualLeader> LeaderOverFleet(const std::vector<Slot>& slots, std::string& reason) const;
+  bool RestoreState();
+  void SaveState();
+
+  // What operators ask for (operator_commands.cc).
+  bus::Answer OnFormationCommand(const formation_command_t& command);
+  bus::Answer OnPathCommand(const path_command_t& command);
+  bus::Answer Apply(const formation_t& message);
+  std::string WhyNot(const config::FormationConfig& config) const;
+
+  // What goes out (controller_node.cc).
+  void SendCommands(const std::vector<FlightCommand>& commands);
+  void SendFormation(const FormationFlight& flight);
+  void SendStatuses();
+  void Tell(const FormationFlight& flight, const FlightEvent& event);
+  std::vector<FlightCommand> HoldTheRest();
+
+  bus::Bus& bus_;
+  ControllerOptions options_;
+  bus::Events events_;
+  bus::CommandInbox inbox_;
+
+  FleetPicture fleet_;
+  std::map<int, FormationFlight> flights_;
+  std::map<int, VehicleState> held_;  ///< UAVs that are in no formation, and what they hold
+  bus::Utime start_utime_ = 0;        ///< t = 0 of the scenario; 0: no roster yet
+  bus::Utime tick_utime_ = 0;
+  std::int64_t tick_ = 0;
+  std::int64_t request_id_ = 0;
+  std::int64_t sequence_ = 0;
+};
+
+}  // namespace skein::controller

@@ -1,0 +1,190 @@
+#include "controller/formation_flight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "controller/rejoin_prediction.h"
+#include "core/frames.h"
+
+namespace skein::controller {
+namespace {
+
+constexpr double kFirstStep = 0.05;  // [s], before there is a last one
+
+// A UAV this near its slot (horizontally) counts as in place again, whatever its way there was.
+constexpr double kMergeDistance = 50;
+
+constexpr std::size_t kMostToPredict = 50;
+constexpr bus::Utime kPredictWithin = 50'000;  // a tick
+
+VehicleState Lowered(VehicleState state, double seconds, double rate_m_s) {
+  state.up_m -= rate_m_s * seconds;
+  return state;
+}
+
+}  // namespace
+
+FormationFlight::FormationFlight(const config::FormationConfig& config, VirtualLeader leader,
+                                 const Airspace& airspace)
+    : config_(config), leader_(std::move(leader)), airspace_(airspace) {
+  for (const Slot& slot : config_.slots) members_.emplace(slot.vehicle_id, MakeMember(slot));
+}
+
+FormationFlight::Member FormationFlight::MakeMember(const Slot& slot) const {
+  if (config_.control == "paper")
+    return {slot.offset, PaperLaw(PaperParametersFrom(config_.gains)), 0, {}, {}, {}, false};
+  return {slot.offset, SkeinLaw(SkeinLawParametersFrom(config_.gains)), 0, {}, {}, {}, false};
+}
+
+FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
+  const double step_s = utime_ == 0 ? 0 : bus::ToSeconds(utime - utime_);
+  utime_ = utime;
+  leader_.AdvanceTo(bus::ToSeconds(utime));
+
+  std::vector<MemberObservation> observations;
+  for (auto& [id, member] : members_) {
+    const auto view = fleet.find(id);
+    if (view == fleet.end() || !view->second.state) continue;
+    observations.push_back(Observe(id, member, view->second, leader_.arc_m()));
+  }
+  std::vector<Traffic> strangers;
+  const AirspaceLimits limits = Surroundings(fleet, strangers);
+
+  FlightStep step;
+  step.events = avoidance_.Update(observations, strangers, limits, step_s);
+  for (auto& [id, member] : members_) {
+    member.flown = false;
+    const auto view = fleet.find(id);
+    if (view == fleet.end() || !view->second.state) continue;
+    if (avoidance_.role(id) == Role::kLost) {
+      step.commands.push_back({id, HoldLost(member, view->second)});
+    } else {
+      member.held.reset();
+      member.flown = true;
+      if (view->second.fresh) step.commands.push_back({id, Fly(member, view->second, avoidance_.offset(id))});
+    }
+    MeasureError(id, member, view->second);
+  }
+  UpdateMode(fleet);
+  return step;
+}
+
+MemberObservation FormationFlight::Observe(int id, const Member& member, const VehicleView& view,
+                                           double arc_m) const {
+  MemberObservation seen;
+  seen.id = id;
+  seen.callsign = view.callsign;
+  seen.lost = view.lost;
+  const VehicleState now = view.At(utime_);
+  const SlotReference planned = SlotOnPath(leader_.path(), arc_m, member.slot, {});
+  seen.level_m = now.up_m - planned.position.z();
+  seen.track = {Position(now), Velocity(now)};
+  seen.ready_to_merge = avoidance_.role(id) == Role::kRejoining && ReadyToMerge(id, member, view);
+  return seen;
+}
+
+bool FormationFlight::ReadyToMerge(int id, const Member& member, const VehicleView& view) const {
+  const double arc = leader_.ArcAt(bus::ToSeconds(view.state_utime));
+  const SlotReference slot = SlotOnPath(leader_.path(), arc, member.slot, avoidance_.offset(id));
+  if (SlotError(slot, Position(*view.state)).head<2>().norm() < kMergeDistance) return true;
+
+  // Farther away the others may come down early when flying it ahead shows that nobody gets near. Once a
+  // second, and not in formations so large that it would cost the tick.
+  const auto* law = std::get_if<SkeinLaw>(&member.law);
+  if (!law || members_.size() > kMostToPredict || utime_ % bus::kSecond >= kPredictWithin) return false;
+  const auto descent = [this](int member_id) {
+    AltitudeRamp ramp(avoidance_.offset(member_id), avoidance_.body().limits());
+    ramp.SetTarget(0);
+    return ramp;
+  };
+  std::vector<DescendingMember> others;
+  for (const auto& [other_id, other] : members_) {
+    if (other_id == id) continue;
+    if (avoidance_.role(other_id) != Role::kFlying) return false;
+    others.push_back({other.slot, descent(other_id)});
+  }
+  return ClearsEveryCylinder(leader_.path(), arc, {member.slot, descent(id), *law, *view.state, view.model},
+                             std::move(others), config_.proximity);
+}
+
+AirspaceLimits FormationFlight::Surroundings(const FleetPicture& fleet,
+                                             std::vector<Traffic>& strangers) const {
+  AirspaceLimits limits;
+  limits.strangers = airspace_.strangers;
+  // Cylinder, dead-reckoning uncertainty (DESIGN: up to 50 m) and room to level off.
+  limits.clearance_m = config_.proximity.height_m + 50 + 20;
+  for (const auto& [id, view] : fleet) {
+    if (!view.state) continue;
+    const VehicleState now = view.At(utime_);
+    if (members_.contains(id)) continue;
+    strangers.push_back({Position(now), Velocity(now)});
+  }
+  const double planned = leader_.path().At(leader_.arc_m()).up_m;
+  for (const auto& [id, member] : members_) {
+    limits.highest_m = std::min(limits.highest_m, airspace_.ceiling_m - planned - member.slot.up_m);
+    limits.lowest_m = std::max(limits.lowest_m, airspace_.floor_m - planned - member.slot.up_m);
+  }
+  return limits;
+}
+
+LawOutput FormationFlight::Fly(Member& member, const VehicleView& view, const AltitudeOffset& offset) {
+  const double step_s =
+      member.controlled_utime == 0
+          ? kFirstStep
+          : std::clamp(bus::ToSeconds(view.state_utime - member.controlled_utime), 0.001, 1.0);
+  member.controlled_utime = view.state_utime;
+
+  // The UAV is compared with the leader at the UAV's own time stamp.
+  const double age = bus::ToSeconds(utime_ - view.state_utime);
+  const double arc = leader_.ArcAt(bus::ToSeconds(view.state_utime));
+  if (auto* law = std::get_if<SkeinLaw>(&member.law)) {
+    const AltitudeOffset then{offset.height_m - offset.rate_m_s * age, offset.rate_m_s,
+                              offset.acceleration_m_s2};
+    return law->Control(SlotOnPath(leader_.path(), arc, member.slot, then), *view.state, view.model, step_s);
+  }
+  const VehicleState leader = Lowered(LeaderState(leader_.path(), arc, offset), age, offset.rate_m_s);
+  LawOutput output;
+  output.input = std::get<PaperLaw>(member.law).Update(leader, member.slot, *view.state, view.model, step_s);
+  output.rates = Respond(*view.state, output.input, view.model);
+  const Envelope& envelope = view.model.envelope;
+  output.setpoint.speed_m_s =
+      std::clamp(output.input.speed_m_s, envelope.min_speed_m_s, envelope.max_speed_m_s);
+  output.setpoint.course_rad = output.input.course_rad;
+  output.setpoint.climb_rad =
+      std::clamp(output.input.climb_rad, -envelope.max_climb_rad, envelope.max_climb_rad);
+  return output;
+}
+
+LawOutput FormationFlight::HoldLost(Member& member, const VehicleView& view) const {
+  if (!member.held) {
+    member.held = *view.state;
+    if (auto* law = std::get_if<PaperLaw>(&member.law)) law->Freeze();
+  }
+  // Not heard: whatever gets through must do no harm, so level at the speed and course last heard. Heard, and
+  // only the uplink gone: the same, so that it does nothing new when commands get through again.
+  member.held->course_rad = view.fresh ? view.state->course_rad : member.held->course_rad;
+  VehicleState level = *member.held;
+  level.up_m = view.state->up_m;
+  return HoldAltitude(level, *view.state, view.model);
+}
+
+void FormationFlight::MeasureError(int id, Member& member, const VehicleView& view) {
+  const AltitudeOffset offset = member.flown ? avoidance_.offset(id) : avoidance_.body().now();
+  const VehicleState now = view.At(utime_);
+  const SlotReference slot = SlotOnPath(leader_.path(), leader_.arc_m(), member.slot, offset);
+  if (config_.control == "paper") {
+    const VehicleState leader = LeaderState(leader_.path(), leader_.arc_m(), offset);
+    member.slot_position = Position(leader);
+    member.slot_position.head<2>() +=
+        FromLeaderFrame({member.slot.forward_m, member.slot.left_m}, leader.course_rad);
+    member.slot_position.z() += member.slot.up_m;
+    const Eigen::Vector3d difference = member.slot_position - Position(now);
+    member.error.head<2>() = ToLeaderFrame(difference.head<2>(), leader.course_rad);
+    member.error.z() = difference.z();
+    return;
+  }
+  member.slot_position = slot.position;
+  member.error = SlotError(slot, Position(now));
+}
+
+}  // namespace skein::controller

@@ -1,0 +1,114 @@
+#pragma once
+
+#include <map>
+#include <skein/formation_status_t.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "config/scenario.h"
+#include "controller/avoidance.h"
+#include "controller/fleet_picture.h"
+#include "core/leader.h"
+#include "core/paper_law.h"
+#include "core/skein_law.h"
+
+namespace skein::controller {
+
+/// What one UAV is to do now.
+struct FlightCommand {
+  int vehicle_id = 0;
+  LawOutput output;
+};
+
+/// What a control step gave.
+struct FlightStep {
+  std::vector<FlightCommand> commands;
+  std::vector<FlightEvent> events;
+};
+
+/// The airspace that all formations share.
+struct Airspace {
+  double ceiling_m = 1e9;
+  double floor_m = 0;
+  ProximityLimits strangers = StrangerLimits();
+};
+
+/// Flies one formation: its virtual leader, the law of each member, and avoidance when a link is lost. Knows
+/// no bus.
+class FormationFlight {
+ public:
+  /// @param config its slots, control, gains; leader and path in it are not looked at. Throws
+  /// std::invalid_argument.
+  /// @param leader where the virtual leader is, and on which path.
+  FormationFlight(const config::FormationConfig& config, VirtualLeader leader, const Airspace& airspace);
+
+  /// One control step, at the time of a FLEET_STATE tick (not before the last one).
+  FlightStep Step(const FleetPicture& fleet, bus::Utime utime);
+
+  /// Takes new slots, control, gains or limits in flight. @return why not, empty when taken.
+  std::string Edit(const config::FormationConfig& config, const FleetPicture& fleet);
+  /// A new path, joined from where the leader is; no waypoints: straight on. @return why not, empty when
+  /// taken.
+  std::string TakePath(const std::vector<Waypoint>& waypoints, bool closed, const FleetPicture& fleet);
+  /// Loiters here. @return why not, empty when it does.
+  std::string Hold(const FleetPicture& fleet);
+  /// Goes back to the path that Hold left. @return why not, empty when it does.
+  std::string Resume(const FleetPicture& fleet);
+
+  const config::FormationConfig& config() const { return config_; }
+  const VirtualLeader& leader() const { return leader_; }
+  const std::vector<Waypoint>& waypoints() const { return waypoints_; }
+  void SetWaypoints(std::vector<Waypoint> waypoints) { waypoints_ = std::move(waypoints); }
+  const Avoidance& avoidance() const { return avoidance_; }
+  void RestoreAvoidance(const AltitudeOffset& body, double target_m) { avoidance_.Restore(body, target_m); }
+  std::int64_t path_revision() const { return path_revision_; }
+  void SetPathRevision(std::int64_t revision) { path_revision_ = revision; }
+  bool HasMember(int vehicle_id) const { return members_.contains(vehicle_id); }
+  bool holding() const { return before_hold_.has_value(); }
+
+  /// Leader, slots and mode after the last step, as one message (not yet in chunks).
+  formation_status_t Status(std::int64_t tick) const;
+
+ private:
+  struct Member {
+    SlotOffset slot;
+    std::variant<SkeinLaw, PaperLaw> law;
+    bus::Utime controlled_utime = 0;   ///< time stamp of the telemetry last answered
+    std::optional<VehicleState> held;  ///< what it holds while its link is lost
+    Eigen::Vector3d error{0, 0, 0};    ///< slot minus UAV, slot frame
+    Eigen::Vector3d slot_position{0, 0, 0};
+    bool flown = false;
+  };
+  struct PathBeforeHold {
+    Path path;
+    double arc_m;
+  };
+
+  Member MakeMember(const Slot& slot) const;
+  PathLimits LimitsFor(const FleetPicture& fleet, const std::vector<Slot>& slots, double share = 0.6) const;
+  MemberObservation Observe(int id, const Member& member, const VehicleView& view, double arc_m) const;
+  AirspaceLimits Surroundings(const FleetPicture& fleet, std::vector<Traffic>& strangers) const;
+  bool ReadyToMerge(int id, const Member& member, const VehicleView& view) const;
+  LawOutput Fly(Member& member, const VehicleView& view, const AltitudeOffset& offset);
+  LawOutput HoldLost(Member& member, const VehicleView& view) const;
+  void MeasureError(int id, Member& member, const VehicleView& view);
+  void UpdateMode(const FleetPicture& fleet);
+  double KeepBehind() const;
+
+  config::FormationConfig config_;
+  VirtualLeader leader_;
+  Airspace airspace_;
+  std::vector<Waypoint> waypoints_;
+  std::map<int, Member> members_;
+  Avoidance avoidance_;
+  std::optional<PathBeforeHold> before_hold_;
+  std::int64_t path_revision_ = 1;
+  bus::Utime utime_ = 0;
+  std::int8_t mode_ = formation_status_t::MODE_WAITING;
+  bus::Utime mode_utime_ = 0;
+  bus::Utime mode_end_utime_ = 0;
+  std::string mode_text_ = "waiting for telemetry";
+};
+
+}  // namespace skein::controller
