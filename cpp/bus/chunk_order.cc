@@ -24,11 +24,16 @@ bool SetOrder::ThirdInARow(const SetStamp& stamp) {
   return candidate_stamps_ >= kStampsNeeded;
 }
 
+bool SetOrder::StartsAnew(const SetStamp& stamp) const {
+  return stamp.session_id == current_.session_id && stamp.set == 0 && current_.set > 0 &&
+         stamp.utime > current_.utime;
+}
+
 SetOrder::Verdict SetOrder::Judge(const SetStamp& stamp) {
   Verdict verdict = Verdict::kOld;
   if (started_ && stamp == current_) {
     verdict = Verdict::kSame;
-  } else if (!started_ || stamp.session_id > current_.session_id) {
+  } else if (!started_ || stamp.session_id > current_.session_id || StartsAnew(stamp)) {
     verdict = Verdict::kNewSource;
   } else if (FitsCurrent(stamp)) {
     verdict = Verdict::kNext;

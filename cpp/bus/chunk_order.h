@@ -15,16 +15,17 @@ struct SetStamp {
   bool operator==(const SetStamp&) const = default;
 };
 
-/// Decides in which order the sets of one source are taken. A later session replaces an earlier one at once.
-/// Within a session time and set number must rise. What does not fit is old, until three sets in a row come
-/// from the same other source with rising stamps and nothing from the present one: then its clock was set, or
-/// it was started anew with an earlier clock, and it is taken again.
+/// Decides in which order the sets of one source are taken. A later session replaces an earlier one at once,
+/// and so does a later set 0: a type without a session shows by it that its sender was started anew. Within a
+/// session time and set number must rise. What does not fit is old, until three sets in a row come from the
+/// same other source with rising stamps and nothing from the present one: then its clock was set, or it was
+/// started anew with an earlier clock, and it is taken again.
 class SetOrder {
  public:
   enum class Verdict {
     kSame,        ///< the set that is being assembled
     kNext,        ///< a later one
-    kNewSource,   ///< the first one of a later session (or of all)
+    kNewSource,   ///< the first one of a later session, of a later start, or of all
     kTakenAgain,  ///< time has jumped, and this is the third rising stamp
     kOld,         ///< to be ignored
   };
@@ -36,6 +37,7 @@ class SetOrder {
 
  private:
   bool FitsCurrent(const SetStamp& stamp) const;
+  bool StartsAnew(const SetStamp& stamp) const;
   bool ThirdInARow(const SetStamp& stamp);
 
   bool started_ = false;

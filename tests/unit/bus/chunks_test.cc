@@ -141,6 +141,15 @@ TEST_F(ChunkAssemblerTest, TakesALaterSessionAtOnceAndLeavesTheEarlierOneBehind)
   EXPECT_EQ(jumps_, 0);
 }
 
+TEST_F(ChunkAssemblerTest, TakesALaterSetZeroAtOnceAsItsSenderWasStartedAnew) {
+  AddAll(State(500, 2));
+  AddAll(State(0, 2, 100, 1'000'000'000 + 600 * kTick));
+  AddAll(State(1, 2, 100, 1'000'000'000 + 600 * kTick));
+  EXPECT_EQ(Ticks(), (std::vector<std::int64_t>{500, 0, 1}));
+  EXPECT_EQ(jumps_, 0);
+  EXPECT_EQ(gaps_, 0);
+}
+
 TEST_F(ChunkAssemblerTest, TakesASourceWhoseTimeHasJumpedBackAfterThreeRisingStamps) {
   AddAll(State(100, 5));
   for (int tick = 10; tick < 15; ++tick) AddAll(State(tick, 5));
