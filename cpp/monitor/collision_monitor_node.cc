@@ -1,0 +1,271 @@
+#include "monitor/collision_monitor_node.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <skein/event_t.hpp>
+#include <skein/formation_t.hpp>
+#include <skein/link_status_t.hpp>
+#include <skein/proximity_t.hpp>
+#include <stdexcept>
+#include <unordered_map>
+
+#include "bus/channels.h"
+#include "bus/chunks.h"
+#include "bus/conversions.h"
+
+namespace skein::monitor {
+namespace {
+
+using bus::Utime;
+
+constexpr Utime kLinkCheckPeriod = bus::kSecond / 10;
+constexpr Utime kLinkStatusPeriod = bus::kSecond;
+// FORMATION comes at 1 Hz. Until it can have come, nobody knows who is close on purpose, and a monitor that
+// was started anew would warn of whole formations.
+constexpr Utime kSettling = 2 * bus::kSecond;
+constexpr std::size_t kMostNoticesAtOnce = 30;
+
+KnownFormation ToKnownFormation(const formation_t& message) {
+  KnownFormation formation{message.formation_id, {}, bus::ToProximityLimits(message)};
+  for (const slot_t& slot : message.slots) formation.members.push_back(slot.vehicle_id);
+  return formation;
+}
+
+const char* CodeOf(AlertLevel level) {
+  switch (level) {
+    case AlertLevel::kClear:
+      return "proximity_cleared";
+    case AlertLevel::kAdvisory:
+      return "proximity_advisory";
+    case AlertLevel::kCaution:
+      return "proximity_caution";
+    case AlertLevel::kWarning:
+      break;
+  }
+  return "proximity_warning";
+}
+
+const char* NameOf(AlertLevel level) {
+  constexpr const char* kNames[] = {"clear", "advisory", "caution", "warning"};
+  return kNames[static_cast<int>(level)];
+}
+
+}  // namespace
+
+void Check(const CollisionMonitorOptions& options) {
+  if (options.rate_hz < 1 || options.rate_hz > 10) throw std::invalid_argument("rate_hz: must be 1 .. 10");
+  skein::Check(options.strangers);
+  for (const KnownFormation& formation : options.formations) skein::Check(formation.limits);
+  skein::Check(options.link_times);
+  skein::Check(options.uncertainty);
+}
+
+CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitorOptions& options)
+    : bus_(bus),
+      events_(bus),
+      options_((Check(options), options)),
+      membership_(bus.executor().Now(), options.strangers, options.formations),
+      levels_from_(bus.executor().Now() + kSettling) {
+  bus::SubscribeChunks<fleet_roster_t>(
+      bus, bus::channel::kFleetRoster,
+      [this](const fleet_roster_t& roster, int missing) { HearRoster(roster, missing); }, &events_);
+  bus::SubscribeChunks<fleet_state_t>(
+      bus, bus::channel::kFleetState, [this](const fleet_state_t& state, int) { HearState(state); },
+      &events_);
+  bus.Subscribe<fleet_command_t>(bus::channel::kCmdFleet,
+                                 [this](const fleet_command_t& commands) { HearCommands(commands); });
+  bus.Subscribe<formation_t>(bus::channel::kFormation, [this](const formation_t& formation) {
+    membership_.Hear(bus_.executor().Now(), ToKnownFormation(formation));
+  });
+  bus.executor().Every(kLinkCheckPeriod, [this] { CheckLinks(); });
+  bus.executor().Every(bus::kSecond / options.rate_hz, [this] { Sweep(); });
+}
+
+void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_chunks) {
+  const Utime now = bus_.executor().Now();
+  std::map<int, const vehicle_info_t*> listed;
+  for (const vehicle_info_t& info : roster.vehicles) listed[info.id] = &info;
+  // Who has left is forgotten; should it be heard on, it comes back as one that is not in the roster.
+  if (missing_chunks == 0) {
+    std::erase_if(uavs_,
+                  [&](const auto& uav) { return uav.second.in_roster() && !listed.contains(uav.first); });
+  }
+  for (const auto& [id, info] : listed) {
+    const auto [uav, is_new] = uavs_.try_emplace(id, id, info->callsign, true, now, options_.link_times);
+    if (!is_new) uav->second.Enrol(info->callsign);
+  }
+}
+
+void CollisionMonitorNode::HearState(const fleet_state_t& state) {
+  const Utime now = bus_.executor().Now();
+  std::vector<Notice> notices;
+  for (const vehicle_state_t& vehicle : state.vehicles) {
+    const auto uav = uavs_
+                         .try_emplace(vehicle.id, vehicle.id, fmt::format("UAV #{}", vehicle.id), false, now,
+                                      options_.link_times)
+                         .first;
+    const auto notice = uav->second.Hear(now, {vehicle.utime, bus::ToVehicleState(vehicle),
+                                               vehicle.command_session_id, vehicle.command_sequence});
+    if (notice) notices.push_back(*notice);
+  }
+  Tell(std::move(notices));
+}
+
+void CollisionMonitorNode::HearCommands(const fleet_command_t& commands) {
+  const Utime now = bus_.executor().Now();
+  membership_.HearCommands(now);
+  for (const vehicle_command_t& command : commands.commands) {
+    const auto uav = uavs_.find(command.id);
+    if (uav != uavs_.end()) uav->second.HearCommand(now, commands.session_id);
+  }
+}
+
+void CollisionMonitorNode::CheckLinks() {
+  const Utime now = bus_.executor().Now();
+  membership_.Forget(now);
+  bool changed = false;
+  std::vector<Notice> notices;
+  for (auto entry = uavs_.begin(); entry != uavs_.end();) {
+    WatchedUav& uav = entry->second;
+    WatchedUav::Judgement judgement = uav.Judge(now);
+    changed = changed || judgement.changed;
+    if (!uav.in_roster() && uav.watch().downlink() == LinkState::kLost) {
+      entry = uavs_.erase(entry);
+      continue;
+    }
+    std::move(judgement.notices.begin(), judgement.notices.end(), std::back_inserter(notices));
+    ++entry;
+  }
+  if (changed || now - links_sent_ >= kLinkStatusPeriod) PublishLinks(now);
+  Tell(std::move(notices));
+}
+
+void CollisionMonitorNode::PublishLinks(Utime now) {
+  link_status_t status;
+  status.utime = now;
+  status.sequence = link_sequence_++;
+  for (const auto& [id, uav] : uavs_) {
+    vehicle_link_t& link = status.links.emplace_back();
+    link.id = id;
+    link.downlink = static_cast<std::int8_t>(uav.watch().downlink());
+    link.uplink = static_cast<std::int8_t>(uav.watch().uplink());
+    const auto downlink_age = uav.watch().downlink_age_us(now);
+    const auto uplink_age = uav.watch().uplink_age_us();
+    link.downlink_age_s = downlink_age ? bus::ToSeconds(*downlink_age) : -1;
+    link.uplink_age_s = uplink_age ? bus::ToSeconds(*uplink_age) : -1;
+    if (const auto estimate = uav.Locate(now, options_.uncertainty)) {
+      link.estimated_east_m = estimate->position.x();
+      link.estimated_north_m = estimate->position.y();
+      link.estimated_up_m = estimate->position.z();
+      link.horizontal_uncertainty_m = estimate->horizontal_uncertainty_m;
+      link.vertical_uncertainty_m = estimate->vertical_uncertainty_m;
+    }
+  }
+  bus::PublishChunks(bus_, bus::channel::kLinkStatus, status);
+  links_sent_ = now;
+}
+
+std::vector<Traffic> CollisionMonitorNode::Locate(Utime now) const {
+  std::vector<Traffic> fleet;
+  for (const auto& [id, uav] : uavs_) {
+    const auto estimate = uav.Locate(now, options_.uncertainty);
+    if (!estimate) continue;
+    fleet.push_back({id, estimate->position, estimate->velocity, membership_.FormationOf(id),
+                     estimate->horizontal_uncertainty_m, estimate->vertical_uncertainty_m});
+  }
+  return fleet;
+}
+
+void CollisionMonitorNode::Sweep() {
+  const Utime now = bus_.executor().Now();
+  const std::vector<Traffic> fleet = Locate(now);
+  std::vector<Notice> notices;
+  if (now >= levels_from_) {
+    for (const AlertChange& change : levels_.Sweep(now, fleet, membership_.rules())) {
+      const bool worse = change.pair.level > change.before;
+      if (worse || change.pair.level == AlertLevel::kClear) notices.push_back(Describe(change, fleet));
+    }
+  }
+  PublishProximity(now, fleet);
+  Tell(std::move(notices));
+}
+
+void CollisionMonitorNode::PublishProximity(Utime now, const std::vector<Traffic>& fleet) {
+  struct Worst {
+    AlertLevel level = AlertLevel::kClear;
+    int with_id = 0;
+  };
+  std::unordered_map<int, Worst> worst;  // of equals the smallest id: pairs come in that order
+  for (const PairAlert& pair : levels_.active()) {
+    if (Worst& first = worst[pair.first_id]; pair.level > first.level) first = {pair.level, pair.second_id};
+    if (Worst& second = worst[pair.second_id]; pair.level > second.level)
+      second = {pair.level, pair.first_id};
+  }
+
+  proximity_t message;
+  message.utime = now;
+  message.sweep = sweep_++;
+  for (const VehicleProximity& found : FindProximity(fleet, membership_.rules())) {
+    vehicle_proximity_t& vehicle = message.vehicles.emplace_back();
+    vehicle.id = found.id;
+    vehicle.level = static_cast<std::int8_t>(worst[found.id].level);
+    vehicle.level_with_id = worst[found.id].with_id;
+    vehicle.nearest_id = found.nearest ? found.nearest->id : 0;
+    vehicle.nearest_horizontal_m = found.nearest ? found.nearest->separation.horizontal_m : -1;
+    vehicle.nearest_vertical_m = found.nearest ? found.nearest->separation.vertical_m : -1;
+    vehicle.tau_id = found.least_tau ? found.least_tau->id : 0;
+    vehicle.tau_s = found.least_tau ? found.least_tau->tau_s : -1;
+  }
+  bus::PublishChunks(bus_, bus::channel::kProximity, message);
+}
+
+std::string CollisionMonitorNode::CallsignOf(int id) const {
+  const auto uav = uavs_.find(id);
+  return uav == uavs_.end() ? fmt::format("UAV #{}", id) : uav->second.callsign();
+}
+
+Notice CollisionMonitorNode::Describe(const AlertChange& change, const std::vector<Traffic>& fleet) const {
+  const PairAlert& pair = change.pair;
+  Notice notice{static_cast<std::int8_t>(pair.level), CodeOf(pair.level), "", pair.first_id, 0};
+  const std::string both = CallsignOf(pair.first_id) + " and " + CallsignOf(pair.second_id);
+  const auto find = [&](int id) {
+    return std::find_if(fleet.begin(), fleet.end(), [&](const Traffic& uav) { return uav.id == id; });
+  };
+  const auto first = find(pair.first_id);
+  const auto second = find(pair.second_id);
+  if (first == fleet.end() || second == fleet.end()) {
+    notice.text = fmt::format("{}: {} over, as one of them is gone", both, NameOf(pair.worst));
+    return notice;
+  }
+  if (first->formation_id == second->formation_id) notice.formation_id = first->formation_id;
+
+  const Separation separation = Separate(first->position, second->position);
+  const std::string distances =
+      fmt::format("R {:.0f} m, H {:.0f} m", separation.horizontal_m, separation.vertical_m);
+  if (pair.level == AlertLevel::kClear) {
+    notice.text = fmt::format("{}: {} over, {}", both, NameOf(pair.worst), distances);
+    return notice;
+  }
+  const ProximityLimits& limits = membership_.rules().Between(*first, *second);
+  const auto tau_s = Tau(MotionBetween(*first, *second), limits.d_mod_m, limits.min_closing_m_s);
+  notice.text = fmt::format("{}: {}, {}{}", both, NameOf(pair.level), distances,
+                            tau_s ? fmt::format(", Tau {:.0f} s", *tau_s) : ", not closing");
+  return notice;
+}
+
+void CollisionMonitorNode::Tell(std::vector<Notice> notices) {
+  std::stable_sort(notices.begin(), notices.end(),
+                   [](const Notice& one, const Notice& other) { return one.severity > other.severity; });
+  const std::size_t told = std::min(notices.size(), kMostNoticesAtOnce);
+  for (std::size_t i = 0; i < told; ++i) {
+    const Notice& notice = notices[i];
+    events_.Tell(notice.severity, notice.code, notice.text, {notice.vehicle_id, notice.formation_id});
+  }
+  if (told < notices.size()) {
+    events_.Tell(notices[told].severity, "more_events",
+                 fmt::format("and {} more at the same time", notices.size() - told));
+  }
+}
+
+}  // namespace skein::monitor

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <skein/fleet_command_t.hpp>
+#include <skein/fleet_roster_t.hpp>
+#include <skein/fleet_state_t.hpp>
+#include <string>
+#include <vector>
+
+#include "bus/bus.h"
+#include "bus/events.h"
+#include "core/alert_levels.h"
+#include "monitor/membership.h"
+#include "monitor/watched_uav.h"
+
+namespace skein::monitor {
+
+struct CollisionMonitorOptions {
+  int rate_hz = 1;                               ///< of PROXIMITY, 1 .. 10
+  ProximityLimits strangers = StrangerLimits();  ///< between UAVs that are not in one formation
+  std::vector<KnownFormation> formations;        ///< until FORMATION says more
+  LinkTimes link_times;
+  UncertaintyGrowth uncertainty;
+};
+/// Throws std::invalid_argument naming the field and the reason.
+void Check(const CollisionMonitorOptions& options);
+
+/// Hears FLEET_ROSTER, FLEET_STATE, CMD_FLEET, FORMATION. Sends PROXIMITY, LINK_STATUS, EVENT.
+///
+/// Watched is every UAV of the roster, and every other one for as long as it is heard. One that was never
+/// heard has no place: it is in LINK_STATUS (unknown for 5 s, lost after that), but not in PROXIMITY. One
+/// that is lost stays in both, dead-reckoned.
+class CollisionMonitorNode {
+ public:
+  CollisionMonitorNode(bus::Bus& bus, const CollisionMonitorOptions& options);
+
+ private:
+  void HearRoster(const fleet_roster_t& roster, int missing_chunks);
+  void HearState(const fleet_state_t& state);
+  void HearCommands(const fleet_command_t& commands);
+
+  void CheckLinks();
+  void PublishLinks(bus::Utime now);
+  void Sweep();
+  void PublishProximity(bus::Utime now, const std::vector<Traffic>& fleet);
+
+  std::vector<Traffic> Locate(bus::Utime now) const;
+  Notice Describe(const AlertChange& change, const std::vector<Traffic>& fleet) const;
+  std::string CallsignOf(int id) const;
+  /// The worst first, and no more at once than people can read and a socket buffer can take.
+  void Tell(std::vector<Notice> notices);
+
+  bus::Bus& bus_;
+  bus::Events events_;
+  CollisionMonitorOptions options_;
+  Membership membership_;
+  AlertLevels levels_;
+  std::map<int, WatchedUav> uavs_;
+  bus::Utime levels_from_;  ///< by then every FORMATION has been heard
+  std::int64_t sweep_ = 0;
+  std::int64_t link_sequence_ = 0;
+  bus::Utime links_sent_ = 0;
+};
+
+}  // namespace skein::monitor

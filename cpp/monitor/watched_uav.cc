@@ -1,0 +1,95 @@
+#include "monitor/watched_uav.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <skein/event_t.hpp>
+#include <utility>
+
+namespace skein::monitor {
+namespace {
+
+// Telemetry that still comes this often, but is never fresh, is a frozen link and not a silent one.
+constexpr bus::Utime kStillTalking = bus::kSecond;
+// An uplink that is lost, but was obeyed this recently, is about to return.
+constexpr bus::Utime kObeysAgain = bus::kSecond;
+
+}  // namespace
+
+WatchedUav::WatchedUav(int id, std::string callsign, bool in_roster, bus::Utime now, const LinkTimes& times)
+    : id_(id), callsign_(std::move(callsign)), in_roster_(in_roster), watch_(now, times) {}
+
+void WatchedUav::Enrol(const std::string& callsign) {
+  callsign_ = callsign;
+  in_roster_ = true;
+}
+
+std::optional<Notice> WatchedUav::Hear(bus::Utime now, const Telemetry& telemetry) {
+  heard_ = now;
+  if (watch_.Hear(now, telemetry) != LinkWatch::Heard::kClockJumped) return std::nullopt;
+  return Tell(event_t::ADVISORY, "time_jumped",
+              fmt::format("the clock of {} has jumped; it is taken again", callsign_));
+}
+
+Notice WatchedUav::Tell(std::int8_t severity, std::string code, std::string text) const {
+  return {severity, std::move(code), std::move(text), id_, 0};
+}
+
+std::string WatchedUav::DownlinkFault(bus::Utime now) const {
+  if (!heard_) return "never heard";
+  const double age_s = bus::ToSeconds(watch_.downlink_age_us(now).value_or(watch_.last_age_us(now)));
+  if (now - *heard_ < kStillTalking) return fmt::format("downlink repeats its state of {:.1f} s ago", age_s);
+  return fmt::format("nothing heard for {:.1f} s", age_s);
+}
+
+WatchedUav::Judgement WatchedUav::Judge(bus::Utime now) {
+  const LinkState downlink_before = std::exchange(downlink_, (watch_.Check(now), watch_.downlink()));
+  const LinkState uplink_before = std::exchange(uplink_, watch_.uplink());
+  const auto became = [&](LinkState state, bool down) {
+    return down ? downlink_ == state && downlink_before != state : uplink_ == state && uplink_before != state;
+  };
+
+  Judgement judgement;
+  judgement.changed = downlink_ != downlink_before || uplink_ != uplink_before;
+  if (!judgement.changed) return judgement;
+
+  const bus::Utime uplink_age = watch_.uplink_age_us().value_or(0);
+  const auto disobeys = [&] {
+    return fmt::format("commands not obeyed for {:.1f} s", bus::ToSeconds(uplink_age));
+  };
+
+  if (became(LinkState::kLost, true)) {
+    if (!bad_since_) bad_since_ = now - watch_.downlink_age_us(now).value_or(0);
+    judgement.notices.push_back(Tell(event_t::WARNING, "link_lost",
+                                     fmt::format("link of {} lost: {}", callsign_, DownlinkFault(now))));
+  } else if (became(LinkState::kLost, false) && downlink_ != LinkState::kLost) {
+    if (!bad_since_) bad_since_ = now - uplink_age;
+    judgement.notices.push_back(
+        Tell(event_t::WARNING, "link_lost", fmt::format("uplink of {} lost: {}", callsign_, disobeys())));
+  } else if (downlink_before == LinkState::kLost && uplink_ == LinkState::kLost && uplink_age > kObeysAgain &&
+             downlink_ != LinkState::kLost) {
+    judgement.notices.push_back(
+        Tell(event_t::WARNING, "link_lost",
+             fmt::format("downlink of {} is back, but not its uplink: {}", callsign_, disobeys())));
+  } else if (bad_since_ && !watch_.lost()) {
+    judgement.notices.push_back(Tell(
+        event_t::INFO, "link_restored",
+        fmt::format("link of {} restored after {:.1f} s", callsign_, bus::ToSeconds(now - *bad_since_))));
+    bad_since_.reset();
+  } else if (became(LinkState::kLate, true)) {
+    judgement.notices.push_back(
+        Tell(event_t::INFO, "link_late", fmt::format("link of {} late: {}", callsign_, DownlinkFault(now))));
+  } else if (became(LinkState::kLate, false) && downlink_ == LinkState::kUp) {
+    judgement.notices.push_back(
+        Tell(event_t::INFO, "link_late", fmt::format("uplink of {} late: {}", callsign_, disobeys())));
+  }
+  return judgement;
+}
+
+std::optional<Estimate> WatchedUav::Locate(bus::Utime now, const UncertaintyGrowth& growth) const {
+  if (!watch_.last()) return std::nullopt;
+  const double age_s = bus::ToSeconds(watch_.last_age_us(now));
+  const bool silent = watch_.downlink() != LinkState::kUp;
+  return DeadReckon(watch_.last()->state, age_s, silent ? age_s : 0, growth);
+}
+
+}  // namespace skein::monitor
