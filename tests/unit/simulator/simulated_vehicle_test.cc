@@ -191,6 +191,32 @@ TEST(SimulatedVehicle, ADelayedDownlinkBringsOldStatesWithTheirOwnTime) {
   EXPECT_NEAR(report->north_m, 200, 1e-9);
 }
 
+TEST(SimulatedVehicle, ADelayedCommandIsFlownFromTheStepInWhichItArrives) {
+  config::VehicleConfig config = Config();
+  config.uplink.delay_s = 0.2;
+  Flight flight(config);
+  flight.vehicle.Send(flight.now(), CommandSpeed(60, 1));
+  flight.Fly(4);  // it arrives at the end of the fourth step
+  EXPECT_EQ(flight.vehicle.state().speed_m_s, 50);
+  flight.Fly(1);
+  EXPECT_GT(flight.vehicle.state().speed_m_s, 50);
+}
+
+TEST(SimulatedVehicle, TellsTheNewestOfSeveralStatesThatArriveTogether) {
+  Flight flight(Config());
+  const auto send_with_delay = [&](double delay_s) {
+    flight.vehicle.SetDownlink({LinkMode::kUp, {.delay_s = delay_s}});
+    const auto heard = flight.vehicle.Telemetry();
+    flight.Fly(1);
+    return heard;
+  };
+  EXPECT_FALSE(send_with_delay(0.1));   // of tick 0, arrives at 100 ms
+  EXPECT_FALSE(send_with_delay(0.04));  // of tick 1, arrives at 90 ms
+  const auto heard = send_with_delay(1);
+  ASSERT_TRUE(heard);
+  EXPECT_EQ(heard->utime, kStart + kTick);
+}
+
 TEST(SimulatedVehicle, ACutUplinkStopsCommandsAndPayloadSwitches) {
   Flight flight(Config());
   flight.vehicle.SetUplink({LinkMode::kSilent, {}});
