@@ -72,14 +72,17 @@ TEST_F(MonitorLinks, LossIsToldOnceWithinFiveSecondsAndReturnOnce) {
 }
 
 TEST_F(MonitorLinks, UplinkThatReturnsATickLaterIsPartOfOneReturn) {
-  // The check falls between the return of the downlink and that of the uplink.
   Start();
-  Run(20.08);
-  fleet_.uavs[3].downlink = fleet_.uavs[3].uplink = false;
+  Run(15);
+  fleet_.uavs[3].uplink = false;
+  Run(5.08);
+  fleet_.uavs[3].downlink = false;
   Run(35);
+  EXPECT_EQ(heard_.Events("link_lost").size(), 2u);
+  // From here the check falls between the return of the downlink and that of the uplink.
   fleet_.uavs[3].downlink = fleet_.uavs[3].uplink = true;
   Run(10);
-  EXPECT_EQ(heard_.Events("link_lost").size(), 1u);
+  EXPECT_EQ(heard_.Events("link_lost").size(), 2u);
   EXPECT_EQ(heard_.Events("link_restored").size(), 1u);
 }
 
