@@ -63,7 +63,13 @@ void FormationControllerNode::OnLinkStatus(const link_status_t& status) {
   for (const vehicle_link_t& link : status.links) {
     const auto view = fleet_.find(link.id);
     if (view == fleet_.end()) continue;
-    view->second.lost = link.downlink == link_status_t::LINK_LOST || link.uplink == link_status_t::LINK_LOST;
+    const auto either = [&](std::int8_t state) { return link.downlink == state || link.uplink == state; };
+    // A monitor that was started anew does not know at first: what was lost stays so until it does.
+    if (either(link_status_t::LINK_LOST)) {
+      view->second.lost = true;
+    } else if (!either(link_status_t::LINK_UNKNOWN)) {
+      view->second.lost = false;
+    }
   }
 }
 
