@@ -35,7 +35,7 @@ TEST_P(EveryProgram, TellsItsVersion) {
 TEST_P(EveryProgram, RefusesAnUnknownOptionWithExitCode2) {
   const Finished refused = RunToEnd({Program(GetParam()), "--no-such-option"});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.output.find("--no-such-option"), std::string::npos) << refused.output;
+  EXPECT_NE(refused.output.find("--help"), std::string::npos) << refused.output;  // what to do about it
 }
 
 INSTANTIATE_TEST_SUITE_P(Skein, EveryProgram,
