@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -78,6 +80,10 @@ struct NodeAndSignal {
   std::string node;
   int signal;
 };
+
+void PrintTo(const NodeAndSignal& both, std::ostream* out) {
+  *out << both.node << " and " << (both.signal == SIGINT ? "SIGINT" : "SIGTERM");
+}
 
 class EveryNode : public ::testing::TestWithParam<NodeAndSignal> {};
 

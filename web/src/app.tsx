@@ -22,7 +22,7 @@ export function App({ store, commands, retry }: AppProps) {
   const freeArea = useCallback(() => free.current?.getBoundingClientRect() ?? new DOMRect(), []);
   const stale = store.isStale(store.now_ms.value) && store.fleet.motion !== null;
   return (
-    <div class={stale ? "app stale" : "app"}>
+    <main class={stale ? "app stale" : "app"}>
       <MapPanel store={store} freeArea={freeArea} />
       <TopBar store={store} />
       <ModeCards store={store} />
@@ -32,6 +32,6 @@ export function App({ store, commands, retry }: AppProps) {
       </div>
       <EventList store={store} />
       <FormationTable store={store} commands={commands} />
-    </div>
+    </main>
   );
 }

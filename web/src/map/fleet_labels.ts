@@ -25,13 +25,13 @@ export class FleetLabels {
   draw(context: CanvasRenderingContext2D, sights: readonly Sight[], colours: Colours, now_ms: number): void {
     if (now_ms - this.placed_ms > kReplace_ms) {
       this.placed_ms = now_ms;
-      const requests = this.mostImportant(sights).map((sight) => this.request(context, sight));
+      const requests = this.mostImportant(sights).map((sight) => this.request(context, sight, now_ms));
       this.placed = new Map(placeLabels(requests, this.placed).map((label) => [label.id, label]));
     }
     context.textBaseline = "top";
     for (const sight of sights) {
       const label = this.placed.get(sight.id);
-      if (label !== undefined) this.drawOne(context, sight, label, colours);
+      if (label !== undefined) this.drawOne(context, sight, label, colours, now_ms);
     }
     context.textBaseline = "alphabetic";
   }
@@ -54,19 +54,19 @@ export class FleetLabels {
     return [...sights].sort((a, b) => weight(b) - weight(a) || a.id - b.id).slice(0, kMostLabels);
   }
 
-  private data(sight: Sight): string {
+  private data(sight: Sight, now_ms: number): string {
     const motion = this.store.fleet.motion;
     if (motion === null) return "";
-    if (sight.lost) return `lost ${duration(motion.age_s[sight.row])}`;
+    if (sight.lost) return `lost ${duration(this.store.fleet.downlinkAge_s(sight.id, now_ms))}`;
     return `${fixed(sight.place.up_m)} m ENU  ${fixed(motion.speed_m_s[sight.row])} m/s`;
   }
 
-  private request(context: CanvasRenderingContext2D, sight: Sight): LabelRequest {
+  private request(context: CanvasRenderingContext2D, sight: Sight, now_ms: number): LabelRequest {
     context.font = kNameFont;
     const name_width = context.measureText(this.store.callsign(sight.id)).width;
     context.font = kDataFont;
     const course_rad = this.store.fleet.motion?.course_rad[sight.row] ?? 0;
-    const data_width = context.measureText(this.data(sight).replace(/\d/g, "0")).width;
+    const data_width = context.measureText(this.data(sight, now_ms).replace(/\d/g, "0")).width;
     return {
       id: sight.id,
       x: sight.x,
@@ -86,9 +86,10 @@ export class FleetLabels {
     sight: Sight,
     label: PlacedLabel,
     colours: Colours,
+    now_ms: number,
   ): void {
     const name = this.store.callsign(sight.id);
-    const data = this.data(sight);
+    const data = this.data(sight, now_ms);
     const x = Math.round(sight.x + label.dx);
     const y = Math.round(sight.y + label.dy);
     context.font = kNameFont;

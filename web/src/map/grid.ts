@@ -20,9 +20,9 @@ const kWidestLocalView_m = 80_000;
 const kFarthestFromOrigin_m = 400_000;
 const kDegreeSteps = [0.1, 0.2, 0.5, 1, 2, 5, 10, 30];
 
-/** Where labels may start: clear of the bar at the top. */
-const kLabelTop_px = 64;
-const kLabelLeft_px = 8;
+/** Where labels start: in the gap between the bar at the top and the panels; wholly behind panels at the left. */
+const kLabelTop_px = 57;
+const kLabelLeft_px = 14;
 
 /** Spacing of the local grid [m] in this view; null where meridians and parallels are drawn instead. */
 export function localGridStep_m(view: View, frame: LocalFrame | null): number | null {
@@ -41,7 +41,7 @@ export function drawGrid(
   colours: Colours,
 ): void {
   context.lineWidth = 1;
-  context.font = "11px 'Inter Variable', sans-serif";
+  context.font = "10.5px 'Inter Variable', sans-serif";
   const step_m = localGridStep_m(view, frame);
   if (frame !== null && step_m !== null) drawLocalGrid(context, view, frame, step_m, colours);
   else drawGraticule(context, view, colours);

@@ -2,7 +2,7 @@ import type { Commands } from "../link/commands";
 import { kLinkLost } from "../state/fleet";
 import { uavRow, type UavRow } from "../state/rows";
 import type { Store } from "../state/store";
-import { Lamp, kLevelNames } from "./icons";
+import { Chain, Lamp, kLevelNames } from "./icons";
 import { UavRowView } from "./uav_row";
 
 interface FormationTableProps {
@@ -118,7 +118,12 @@ function Summary({ rows }: { rows: readonly UavRow[] }) {
           )
         );
       })}
-      {lost > 0 && <li class="lost">{lost === 1 ? "1 link lost" : `${lost} links lost`}</li>}
+      {lost > 0 && (
+        <li class="lost">
+          <Chain state={kLinkLost} label="Link lost" />
+          {lost === 1 ? "1 link lost" : `${lost} links lost`}
+        </li>
+      )}
     </ul>
   );
 }

@@ -63,6 +63,21 @@ export class Fleet {
     return row >= 0 && this.status !== null && this.status.downlink[row] === kLinkLost;
   }
 
+  /** Time since a UAV was last heard [s], which goes on between frames; -1: never, or not known. */
+  downlinkAge_s(id: number, now_ms: number): number {
+    return this.carriedOn(this.status?.downlink_age_s[this.statusRow(id)], now_ms);
+  }
+
+  /** Time since a UAV last obeyed [s], while commands are sent; -1: not known. */
+  uplinkAge_s(id: number, now_ms: number): number {
+    return this.carriedOn(this.status?.uplink_age_s[this.statusRow(id)], now_ms);
+  }
+
+  private carriedOn(age_s: number | undefined, now_ms: number): number {
+    if (age_s === undefined || age_s < 0) return -1;
+    return age_s + Math.max(0, now_ms - this.status_arrival_ms) / 1000;
+  }
+
   /**
    * Where the UAV in a row of `motion` is at `now_ms`: between frames it is carried along its velocity; one that is lost
    * is where the monitor thinks it is.

@@ -40,9 +40,6 @@ export function uavRow(fleet: Fleet, vehicle: Vehicle, now_ms: number): UavRow {
   const motion = m < 0 ? null : fleet.motion;
   const status = s < 0 ? null : fleet.status;
   const has_slot = status !== null && (status.flags[s] & kHasSlot) !== 0;
-  // Ages go on between two frames.
-  const older_s = Math.max(0, (now_ms - fleet.status_arrival_ms) / 1000);
-  const carriedOn = (age_s: number) => (age_s < 0 ? age_s : age_s + older_s);
   const downlink = status === null ? kUnknown : status.downlink[s];
   return {
     id: vehicle.id,
@@ -51,8 +48,8 @@ export function uavRow(fleet: Fleet, vehicle: Vehicle, now_ms: number): UavRow {
     level: status === null ? -1 : status.level[s],
     downlink,
     uplink: status === null ? kUnknown : status.uplink[s],
-    downlink_age_s: status === null ? -1 : carriedOn(status.downlink_age_s[s]),
-    uplink_age_s: status === null ? -1 : carriedOn(status.uplink_age_s[s]),
+    downlink_age_s: fleet.downlinkAge_s(vehicle.id, now_ms),
+    uplink_age_s: fleet.uplinkAge_s(vehicle.id, now_ms),
     error:
       status === null || !has_slot
         ? null
