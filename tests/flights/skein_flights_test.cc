@@ -73,7 +73,7 @@ TEST(SkeinTurn, TakesPathsOverTheBusInMidTurnWithoutAJump) {
   const std::vector<Upload> uploads = {
       {"closed", true, {{8000, 0, 1000, 50}, {8000, 12000, 1000, 50}, {-6000, 12000, 1000, 50}}},
       {"open end", false, {{8000, 0, 1000, 50}, {14000, 0, 1000, 50}}},
-      {"climbing", false, {{8000, 0, 1000, 50}, {16000, 0, 1700, 60}, {16000, 12000, 800, 45}}},
+      {"climbing", false, {{8000, 0, 1000, 50}, {16000, 0, 1500, 60}, {16000, 12000, 800, 45}}},
   };
   for (const Upload& upload : uploads) {
     SCOPED_TRACE(upload.what);
@@ -81,7 +81,10 @@ TEST(SkeinTurn, TakesPathsOverTheBusInMidTurnWithoutAJump) {
     scenario.duration_s = 700;
     bool accepted = false;
     const auto upload_at_75_s = [&](bus::Bus& operator_bus) {
-      operator_bus.Subscribe<ack_t>(bus::channel::kAck, [&](const ack_t& ack) { accepted = ack.accepted; });
+      operator_bus.Subscribe<ack_t>(bus::channel::kAck, [&](const ack_t& ack) {
+        accepted = ack.accepted;
+        EXPECT_TRUE(ack.accepted) << ack.reason;
+      });
       operator_bus.executor().At(operator_bus.executor().Now() + 75 * bus::kSecond, [&, upload] {
         path_command_t command;
         command.utime = operator_bus.executor().Now();
