@@ -92,8 +92,7 @@ class FormationFlight {
   bool ReadyToMerge(int id, const Member& member, const VehicleView& view) const;
   LawOutput Fly(Member& member, const VehicleView& view, const AltitudeOffset& offset);
   LawOutput HoldLost(Member& member, const VehicleView& view) const;
-  SlotReference PlaceOf(const SlotOffset& slot, const AltitudeOffset& offset) const;
-  void Measure(int id, Member& member, const VehicleView* view);
+  void MeasureError(int id, Member& member, const VehicleView& view);
   void UpdateMode(const FleetPicture& fleet);
   double KeepBehind() const;
 

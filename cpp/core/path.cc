@@ -100,8 +100,13 @@ Path::Folded Path::Fold(double arc_m) const {
   return {arc_m - laps * lap_m(), laps};
 }
 
-PathPoint Path::At(double arc_m) const {
-  const auto [arc, laps] = Fold(arc_m);
+size_t Path::PieceAt(double arc_m) const {
+  const auto after = std::upper_bound(piece_arcs_m_.begin() + 1, piece_arcs_m_.end() - 1, arc_m);
+  return static_cast<size_t>(after - piece_arcs_m_.begin()) - 1;
+}
+
+PathPoint Path::ShapeAt(double arc_m) const {
+  const double arc = Fold(arc_m).arc_m;
   const size_t knot = KnotAfter(profile_, arc);
   const Jet up = ProfileAt(profile_, knot, arc, kUp);
   const Jet speed = ProfileAt(profile_, knot, arc, kSpeed);
@@ -113,7 +118,20 @@ PathPoint Path::At(double arc_m) const {
   point.speed_m_s = speed.value;
   point.speed_slope_per_s = speed.slope;
   point.speed_slope_rate_per_m_s = speed.rate;
+  if (arc >= end_arc_m() && !closed()) {
+    point.curvature_per_m = pieces_.back().end_curvature_per_m;
+  } else if (arc >= start_arc_m()) {
+    const size_t index = PieceAt(arc);
+    const PathPiece& piece = pieces_[index];
+    point.curvature_slope_per_m2 = CurvatureSlope(piece);
+    point.curvature_per_m =
+        piece.start_curvature_per_m + point.curvature_slope_per_m2 * (arc - piece_arcs_m_[index]);
+  }
+  return point;
+}
 
+PathPoint Path::At(double arc_m) const {
+  const auto [arc, laps] = Fold(arc_m);
   Pose pose;
   if (arc < start_arc_m()) {
     const PathPiece& first = pieces_.front();
@@ -121,18 +139,13 @@ PathPoint Path::At(double arc_m) const {
   } else if (arc >= end_arc_m() && !closed()) {
     const PathPiece& last = pieces_.back();
     const Pose end = PoseOn(last, last.length_m);
-    point.curvature_per_m = last.end_curvature_per_m;
-    pose = PoseOn({1, end.position, end.course_rad, point.curvature_per_m, point.curvature_per_m},
-                  arc - end_arc_m());
+    const double curvature = last.end_curvature_per_m;
+    pose = PoseOn({1, end.position, end.course_rad, curvature, curvature}, arc - end_arc_m());
   } else {
-    const auto after = std::upper_bound(piece_arcs_m_.begin() + 1, piece_arcs_m_.end() - 1, arc);
-    const size_t index = static_cast<size_t>(after - piece_arcs_m_.begin()) - 1;
-    const PathPiece& piece = pieces_[index];
-    const double along = arc - piece_arcs_m_[index];
-    point.curvature_slope_per_m2 = CurvatureSlope(piece);
-    point.curvature_per_m = piece.start_curvature_per_m + point.curvature_slope_per_m2 * along;
-    pose = PoseOn(piece, along);
+    const size_t index = PieceAt(arc);
+    pose = PoseOn(pieces_[index], arc - piece_arcs_m_[index]);
   }
+  PathPoint point = ShapeAt(arc_m);
   point.position = pose.position;
   point.course_rad = pose.course_rad + laps * lap_turn_rad_;
   return point;

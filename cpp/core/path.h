@@ -102,7 +102,8 @@ class Path {
   /// Allocates nothing; exact to well under 1 mm. On a closed path course goes on rising (falling) by
   /// lap_turn_rad() a lap.
   PathPoint At(double arc_m) const;
-  double SpeedAt(double arc_m) const;  ///< speed_m_s of At(), cheaper
+  PathPoint ShapeAt(double arc_m) const;  ///< At() without position and course, cheaper
+  double SpeedAt(double arc_m) const;     ///< speed_m_s of At(), cheaper still
 
   double start_arc_m() const { return piece_arcs_m_.front(); }
   double end_arc_m() const { return piece_arcs_m_.back(); }  ///< of the last piece
@@ -120,6 +121,7 @@ class Path {
     double laps;
   };
   Folded Fold(double arc_m) const;
+  size_t PieceAt(double arc_m) const;  ///< of an arc length within the pieces
 
   std::vector<PathPiece> pieces_;
   std::vector<double> piece_arcs_m_;  ///< arc lengths of the starts of all pieces and of the end

@@ -144,10 +144,10 @@ class Joining {
       chain = Lay(circles, tight, wide);
     }
     if (!chain || chain->arc_m() - start < least) return {std::nullopt, "no turns lead there"};
-    return Checked(*chain);
+    return Checked(*chain, std::abs(departure_.start.curvature_per_m) / tight.slope_per_m2);
   }
 
-  PathResult Checked(const PieceChain& chain) const {
+  PathResult Checked(const PieceChain& chain, double unwind_m) const {
     Draft draft(departure_);
     draft.chain = chain;
     const double start = departure_.start.arc_m, end = chain.arc_m();
@@ -158,7 +158,10 @@ class Joining {
     Path path = Assemble(departure_, draft, end, rest, loop_start);
 
     const double ahead = std::max(0.0, limits_.foremost_m);
-    auto excess = FirstExcess(path, limits_, start, end + ahead);
+    // What is flown already may be too much, after an edit of the formation: then the way out of it is not to
+    // blame.
+    const bool blameless = !FirstExcess(departure_.current, limits_, start, start);
+    auto excess = FirstExcess(path, limits_, blameless ? start : start + unwind_m, end + ahead);
     const double behind = start - ahead + std::min(0.0, limits_.hindmost_m);
     if (!excess && !FirstExcess(departure_.current, limits_, behind, start)) {
       excess = FirstExcess(path, limits_, behind, start);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 namespace skein {
 namespace {
@@ -29,12 +29,13 @@ double Outermost(const PathLimits& limits) { return std::max(limits.most_left_m,
 /// Largest of every `width` + 1 neighbours.
 std::vector<double> WindowMax(const std::vector<double>& values, size_t width) {
   std::vector<double> largest;
-  std::deque<size_t> candidates;  // falling values
+  std::vector<size_t> candidates;  // falling values, from `first` on
+  size_t first = 0;
   for (size_t i = 0; i < values.size(); ++i) {
-    while (!candidates.empty() && values[candidates.back()] <= values[i]) candidates.pop_back();
+    while (candidates.size() > first && values[candidates.back()] <= values[i]) candidates.pop_back();
     candidates.push_back(i);
-    if (candidates.front() + width < i) candidates.pop_front();
-    if (i >= width) largest.push_back(values[candidates.front()]);
+    if (candidates[first] + width < i) ++first;
+    if (i >= width) largest.push_back(values[candidates[first]]);
   }
   return largest;
 }
@@ -54,11 +55,11 @@ Samples Sample(const Path& path, const PathLimits& limits, double from_m, double
   const size_t count = 1 + static_cast<size_t>(std::ceil((to_m - from_m) / step));
   samples.step_m = step;
   for (size_t i = 0; i < count; ++i) {
-    samples.points.push_back(path.At(std::min(to_m, from_m + static_cast<double>(i) * step)));
+    samples.points.push_back(path.ShapeAt(std::min(to_m, from_m + static_cast<double>(i) * step)));
   }
   const size_t width = static_cast<size_t>(std::ceil((limits.foremost_m - limits.hindmost_m) / step));
   for (size_t i = 0; i < count + width; ++i) {
-    const PathPoint leader = path.At(from_m - limits.foremost_m + static_cast<double>(i) * step);
+    const PathPoint leader = path.ShapeAt(from_m - limits.foremost_m + static_cast<double>(i) * step);
     samples.slowest.push_back(-leader.speed_m_s);
     samples.fastest.push_back(leader.speed_m_s);
     samples.acceleration.push_back(std::abs(leader.speed_m_s * leader.speed_slope_per_s));
@@ -79,19 +80,11 @@ double OwnAcceleration(const PathPoint& point, double left_m, double speed_m_s, 
              std::sin(climb);
 }
 
-std::string Words(const std::string& what, double value, double limit, const std::string& unit,
-                  double scale = 1) {
+std::string Words(const std::string& what, double value, double limit, const std::string& unit) {
   std::ostringstream text;
   text.setf(std::ios::fixed);
-  text.precision(scale == 1 ? 1 : 2);
-  text << what << ' ' << value * scale << ' ' << unit << " (limit " << limit * scale << ' ' << unit << ')';
-  return text.str();
-}
-
-std::string SlotName(double left_m) {
-  if (left_m == 0) return "the slots";
-  std::ostringstream text;
-  text << "the slot " << std::lround(std::abs(left_m)) << " m to the " << (left_m > 0 ? "left" : "right");
+  text.precision(unit == "m" ? 0 : unit == "m/s" ? 1 : 2);
+  text << what << ' ' << value << ' ' << unit << ", the limit is " << limit << ' ' << unit;
   return text.str();
 }
 
@@ -100,32 +93,41 @@ constexpr double kDegrees = 180 / M_PI;
 /// What a slot `left_m` to the left cannot fly at a point, in words; empty when it can.
 std::string SlotExcess(const PathPoint& point, double left_m, double slowest_m_s, double fastest_m_s,
                        double acceleration_m_s2, const PathLimits& limits) {
-  const std::string name = SlotName(left_m);
+  const auto words = [&](const std::string& what, double value, double limit, const std::string& unit) {
+    std::string name = "the slots";
+    if (left_m != 0) {
+      name = "the slot " + std::to_string(std::lround(std::abs(left_m))) + " m to the " +
+             (left_m > 0 ? "left" : "right");
+    }
+    return Words(name + " would " + what, value, limit, unit);
+  };
   const double shrink = 1 - point.curvature_per_m * left_m;
   if (slowest_m_s * shrink * kSlack < limits.min_speed_m_s) {
-    return Words(name + " would fly only", slowest_m_s * shrink, limits.min_speed_m_s, "m/s");
+    return words("slow down to", slowest_m_s * shrink, limits.min_speed_m_s, "m/s");
   }
   if (fastest_m_s * shrink > limits.max_speed_m_s * kSlack) {
-    return Words(name + " would have to fly", fastest_m_s * shrink, limits.max_speed_m_s, "m/s");
+    return words("have to fly", fastest_m_s * shrink, limits.max_speed_m_s, "m/s");
   }
   const double course_rate = fastest_m_s * std::abs(point.curvature_per_m);
   if (course_rate > limits.max_course_rate_rad_s * kSlack) {
-    return Words(name + " would turn at", course_rate, limits.max_course_rate_rad_s, "deg/s", kDegrees);
+    return words("turn at", course_rate * kDegrees, limits.max_course_rate_rad_s * kDegrees, "deg/s");
   }
   const double slope = point.up_slope / shrink;
-  if (std::abs(std::atan(slope)) > limits.max_climb_rad * kSlack) {
-    return Words(name + " would climb at", std::abs(std::atan(slope)), limits.max_climb_rad, "deg", kDegrees);
+  const double climb = std::abs(std::atan(slope));
+  if (climb > limits.max_climb_rad * kSlack) {
+    return words("climb or descend at", climb * kDegrees, limits.max_climb_rad * kDegrees, "deg");
   }
-  const double rate = (point.up_slope_rate_per_m + slope * point.curvature_slope_per_m2 * left_m) / shrink /
-                      (1 + slope * slope);
-  if (fastest_m_s * std::abs(rate) > limits.max_climb_rate_rad_s * kSlack) {
-    return Words(name + " would change climb at", fastest_m_s * std::abs(rate), limits.max_climb_rate_rad_s,
-                 "deg/s", kDegrees);
+  const double climb_rate =
+      fastest_m_s / (shrink * (1 + slope * slope)) *
+      std::abs(point.up_slope_rate_per_m + slope * point.curvature_slope_per_m2 * left_m);
+  if (climb_rate > limits.max_climb_rate_rad_s * kSlack) {
+    return words("change its climb angle at", climb_rate * kDegrees, limits.max_climb_rate_rad_s * kDegrees,
+                 "deg/s");
   }
   const double acceleration = OwnAcceleration(point, left_m, fastest_m_s, acceleration_m_s2) +
                               fastest_m_s * fastest_m_s * std::abs(left_m * point.curvature_slope_per_m2);
   if (acceleration > limits.max_acceleration_m_s2 * kSlack) {
-    return Words(name + " would accelerate at", acceleration, limits.max_acceleration_m_s2, "m/s^2", 1.0);
+    return words("accelerate at", acceleration, limits.max_acceleration_m_s2, "m/s^2");
   }
   return {};
 }
@@ -252,7 +254,8 @@ std::optional<double> LoiterRadius(const PathLimits& limits, double speed_m_s) {
 std::string Violation(const Path& path, const PathLimits& limits) {
   const double length = limits.foremost_m - limits.hindmost_m;
   if (path.closed() && path.lap_m() < LeastLoop(limits)) {
-    return Words("the loop is shorter than the formation:", path.lap_m(), LeastLoop(limits), "m");
+    return Words("the loop is shorter than the formation with its clearance: it is", path.lap_m(),
+                 LeastLoop(limits), "m");
   }
   const double to = std::max(path.end_arc_m(), path.profile().back().arc_m);
   // Round again on a loop: what the leader does a lap later meets the slots that are still behind.

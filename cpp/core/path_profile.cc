@@ -15,7 +15,7 @@ constexpr double kSameArc_m = 1e-6;
 /// Levelling off uses this much of the limit of climb-angle rate: slots on the inside of a turn climb
 /// steeper.
 constexpr double kSettleShare = 0.4;
-constexpr double kSpeedSettle_s = 3;
+constexpr double kSettle_s = 3;  ///< at least, for speed always
 
 }  // namespace
 
@@ -83,13 +83,15 @@ double SettleRise(const Jet& start, double length_m) {
 }
 
 double ClimbSettleLength(const Jet& up, double speed_m_s, const PathLimits& limits) {
+  if (up.slope == 0 && up.rate == 0) return 0;
   // The slope falls like a cubic, at most 1.5 times as fast as evenly.
-  return 1.5 * (std::abs(up.slope) + std::abs(up.rate) * speed_m_s) * speed_m_s /
-         (kSettleShare * limits.max_climb_rate_rad_s);
+  const double for_rate = 1.5 * (std::abs(up.slope) + std::abs(up.rate) * speed_m_s) * speed_m_s /
+                          (kSettleShare * limits.max_climb_rate_rad_s);
+  return std::max(for_rate, kSettle_s * speed_m_s);
 }
 
 double SpeedSettleLength(const Jet& speed) {
-  return speed.slope == 0 && speed.rate == 0 ? 0 : kSpeedSettle_s * speed.value;
+  return speed.slope == 0 && speed.rate == 0 ? 0 : kSettle_s * speed.value;
 }
 
 double ClimbLength(double height_m, double speed_m_s, const PathLimits& limits) {

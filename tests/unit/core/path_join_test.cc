@@ -180,6 +180,26 @@ TEST(Join, SlotsAheadOfTheLeaderAreNotMoved) {
   for (double arc = 0; arc <= 1700; arc += 10) ExpectSame(result.path->At(arc), current.At(arc));
 }
 
+TEST(Join, WorksForAFormationThatWasWidenedInATurn) {
+  // The turn that is flown is too tight for the new slots; the way out of it is still found.
+  const PathLimits narrow = LimitsOf({}, {{-1000, 100, 0}, {-1000, -100, 0}});
+  const PathLimits wide = LimitsOf({}, {{-1000, 600, 0}, {-1000, -600, 0}});
+  const PathResult turn = PlanLegs({0, 0}, 0, 1000, 50, {{.turn_rad = 6}}, narrow);
+  ASSERT_TRUE(turn.path) << turn.reason;
+  ASSERT_NE(Violation(*turn.path, wide), "");
+  const PathResult next =
+      PlanWaypoints({{0, 0, 1000, 50}, {20000, 0, 1000, 50}, {20000, 20000, 1000, 50}}, true, wide);
+  ASSERT_TRUE(next.path) << next.reason;
+  const PathResult result = Join(*turn.path, 1500, *next.path, 0, 3000, wide);
+  const PathResult loiter = Loiter(*turn.path, 1500, 3000, wide);
+  ASSERT_TRUE(result.path) << result.reason;
+  ASSERT_TRUE(loiter.path) << loiter.reason;
+  for (const Path& path : {*result.path, *loiter.path}) {
+    ExpectSmooth(path, 0, path.end_arc_m() + 1000);
+    ExpectSame(path.At(1500), turn.path->At(1500));
+  }
+}
+
 TEST(Join, RefusesAPathThatIsNowhereStraight) {
   const Path circle(0, {{100, {0, 0}, 0, 0.0005, 0.0005}}, {{0, 500, 50}}, std::nullopt);
   const PathResult result = Join(Path::Straight({0, 0}, 0, 500, 50), 0, circle, 0, 3000, TriangleLimits());
