@@ -146,6 +146,11 @@ Value Value::FromFile(const std::filesystem::path& file) {
   return Value(std::move(document), root, "");
 }
 
+Value Value::FromJson(json json, std::string name) {
+  const auto document = std::make_shared<const Document>(Document{std::move(name), std::move(json)});
+  return Value(document, document->root, "");
+}
+
 Value::Value(std::shared_ptr<const Document> document, const json& json, std::string pointer)
     : document_(std::move(document)), json_(&json), pointer_(std::move(pointer)) {}
 
