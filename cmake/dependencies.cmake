@@ -6,7 +6,6 @@ find_package(spdlog REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Boost CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
 
 # Debian's LCM 1.3.1 has no CMake config file; upstream from 1.4 on has.
@@ -22,6 +21,8 @@ endif()
 find_program(LCM_GEN lcm-gen REQUIRED)
 if(SKEIN_TESTS)
   find_package(GTest REQUIRED)
+  # The system tests' HTTP client; no program of ours uses it.
+  pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 endif()
 if(SKEIN_BENCH)
   find_package(benchmark REQUIRED)

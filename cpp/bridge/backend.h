@@ -1,0 +1,27 @@
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bridge/command_gateway.h"
+#include "bridge/live_frame.h"
+
+namespace skein::bridge {
+
+/// What the web server asks of the bus side. It calls these on its own thread, and `reply` comes later on
+/// that same thread (WebBridge sees to both), or never when the bridge ends first.
+struct Backend {
+  template <typename Result>
+  using Reply = std::function<void(const Result&)>;
+
+  /// hello and the last of everything, for a browser that has just come.
+  std::function<void(Reply<std::vector<LiveFrame>>)> snapshot;
+  /// The JSON of GET /api/state and of GET /api/vehicles.
+  std::function<void(Reply<std::string>)> state;
+  std::function<void(Reply<std::string>)> vehicles;
+  std::function<void(std::string channel, nlohmann::json body, Reply<CommandResult>)> command;
+};
+
+}  // namespace skein::bridge

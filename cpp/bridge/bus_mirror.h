@@ -1,0 +1,103 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bridge/binary_frames.h"
+#include "bridge/fleet_table.h"
+#include "bridge/json_messages.h"
+#include "bridge/live_frame.h"
+#include "bus/bus.h"
+#include "core/path.h"
+
+namespace skein::bridge {
+
+/// What "hello" tells beside the time.
+struct HelloInfo {
+  std::string version;
+  std::string lcm_url;
+  std::string tile_url;  ///< "": none
+  std::string tile_attribution;
+};
+
+/// Hears everything on the bus, holds the last of each, and says what has changed as frames for the browsers
+/// (README.md).
+class BusMirror {
+ public:
+  using Sink = std::function<void(const LiveFrame&)>;
+
+  BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink);
+
+  /// For a browser that has just come: hello and the last of each, in an order in which nothing refers to
+  /// what comes later.
+  std::vector<LiveFrame> Snapshot() const;
+
+  /// GET /api/state and GET /api/vehicles.
+  Json State() const;
+  Json Vehicles() const;
+
+  static constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;
+  static constexpr std::size_t kMaxEvents = 200;
+  /// Above so many UAVs MOTION goes out at 5 Hz instead of 10.
+  static constexpr std::size_t kManyVehicles = 100;
+
+ private:
+  /// A message that is repeated, and when it last was.
+  struct Repeated {
+    Json shown;
+    bus::Utime heard_at = 0;
+  };
+  struct DrawnPath {
+    path_t message;
+    Json shown;
+    double drawn_from_arc_m = 0;  ///< where the leader was then
+    bool endless = false;
+  };
+
+  void Hear(const fleet_roster_t& roster);
+  void Hear(const fleet_state_t& state);
+  void Hear(const formation_t& formation);
+  void Hear(const formation_status_t& status);
+  void Hear(const path_t& path);
+  void Hear(const event_t& event);
+  void Hear(const heartbeat_t& heartbeat);
+
+  void Draw(DrawnPath& path);
+  void Look();
+  void ForgetFormations();
+  void SendMotion();
+  /// Once for all messages that are handled at this moment.
+  void SendStatusSoon();
+
+  bus::Utime Now() const { return bus_.executor().Now(); }
+  FrameTime Time() const;
+  Json Hello() const;
+  Json Silent() const;
+  LiveFrame Motion() const;
+  LiveFrame Status() const;
+
+  bus::Bus& bus_;
+  HelloInfo hello_;
+  Sink sink_;
+
+  FleetTable fleet_;
+  fleet_roster_t roster_{};
+  Json roster_shown_;  ///< null: none yet
+  bus::Utime state_utime_ = 0;
+  std::map<std::int32_t, Repeated> formations_;
+  std::map<std::int32_t, Json> statuses_;
+  std::map<std::int32_t, double> leader_arcs_m_;
+  std::map<std::int32_t, DrawnPath> paths_;
+  std::map<std::string, Repeated> heartbeats_;
+  std::set<std::string> silent_;
+  std::deque<Json> events_;
+  bool motion_skipped_ = false;
+  bool status_due_ = false;
+};
+
+}  // namespace skein::bridge

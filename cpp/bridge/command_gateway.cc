@@ -1,0 +1,93 @@
+#include "bridge/command_gateway.h"
+
+#include <nlohmann/json.hpp>
+
+#include "bridge/command_parser.h"
+#include "bus/channels.h"
+#include "bus/validate.h"
+#include "config/scenario.h"
+
+namespace skein::bridge {
+namespace {
+
+using Outcome = CommandResult::Outcome;
+
+const char* Obeys(const std::string& channel) {
+  return channel == bus::channel::kCmdLink || channel == bus::channel::kCmdPayload ? "fleet-simulator"
+                                                                                   : "formation-controller";
+}
+
+}  // namespace
+
+CommandGateway::CommandGateway(bus::Bus& bus) : bus_(bus) {
+  bus_.Subscribe<ack_t>(bus::channel::kAck, [this](const ack_t& ack) { Hear(ack); });
+}
+
+void CommandGateway::Send(const std::string& channel, const nlohmann::json& body, Done done) {
+  if (waiting_.size() >= kMaxWaiting) {
+    done({Outcome::kBusy, "too many commands wait for an answer: try again in 2 s"});
+    return;
+  }
+  // `done` is not moved on: a body that is refused needs it too.
+  try {
+    if (channel == bus::channel::kCmdLink) {
+      Publish(channel, ParseLinkCommand(body, bus_.executor().Now()), done);
+    } else if (channel == bus::channel::kCmdPayload) {
+      Publish(channel, ParsePayloadCommand(body), done);
+    } else if (channel == bus::channel::kCmdFormation) {
+      Publish(channel, ParseFormationCommand(body), done);
+    } else if (channel == bus::channel::kCmdPath) {
+      Publish(channel, ParsePathCommand(body), done);
+    } else {
+      done({Outcome::kMalformed, "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION or CMD_PATH, is " +
+                                     channel.substr(0, 40)});
+    }
+  } catch (const config::ConfigError& error) {
+    done({Outcome::kMalformed, error.what()});
+  }
+}
+
+template <typename Command>
+void CommandGateway::Publish(const std::string& channel, Command command, Done done) {
+  // The nodes drop what is not valid in silence; the numbers were checked field by field, but not every text.
+  if (!bus::Valid(command)) {
+    done({Outcome::kMalformed, channel + ": holds a text that is too long or has control characters"});
+    return;
+  }
+  const std::int64_t request_id = ++last_request_id_;
+  command.session_id = bus_.session_id();
+  command.request_id = request_id;
+  const auto publish = [this, channel, command = std::move(command)]() mutable {
+    command.utime = bus_.executor().Now();
+    bus_.Publish(channel, command);
+  };
+  const bus::Utime now = bus_.executor().Now();
+  waiting_.emplace(request_id, Waiting{channel, publish, std::move(done)});
+  bus_.executor().At(now + kResendAfter, [this, request_id] {
+    const auto entry = waiting_.find(request_id);
+    if (entry != waiting_.end()) entry->second.publish();
+  });
+  bus_.executor().At(now + kGiveUpAfter, [this, request_id, channel] {
+    Finish(request_id, {Outcome::kNoAnswer,
+                        "nobody answered " + channel + " within 2 s: is " + Obeys(channel) + " running?"});
+  });
+  waiting_.at(request_id).publish();
+}
+
+void CommandGateway::Hear(const ack_t& ack) {
+  if (ack.command_session_id != bus_.session_id()) return;
+  const auto entry = waiting_.find(ack.command_request_id);
+  if (entry == waiting_.end() || entry->second.channel != ack.command_channel) return;
+  Finish(ack.command_request_id, {ack.accepted ? Outcome::kAccepted : Outcome::kRefused, ack.reason});
+}
+
+void CommandGateway::Finish(std::int64_t request_id, const CommandResult& result) {
+  const auto entry = waiting_.find(request_id);
+  if (entry == waiting_.end()) return;
+  // Out of the table first: `done` may send the next command.
+  const Done done = std::move(entry->second.done);
+  waiting_.erase(entry);
+  done(result);
+}
+
+}  // namespace skein::bridge

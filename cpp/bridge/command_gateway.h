@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <skein/ack_t.hpp>
+#include <string>
+
+#include "bus/bus.h"
+
+namespace skein::bridge {
+
+struct CommandResult {
+  enum class Outcome { kAccepted, kRefused, kMalformed, kBusy, kNoAnswer };
+  Outcome outcome = Outcome::kAccepted;
+  std::string reason;  ///< "" when accepted without a remark
+
+  bool accepted() const { return outcome == Outcome::kAccepted; }
+};
+
+/// Puts a browser's commands on the bus and waits for the node that obeys. Sends again after 1 s, gives up
+/// after 2 s.
+class CommandGateway {
+ public:
+  using Done = std::function<void(const CommandResult&)>;
+
+  explicit CommandGateway(bus::Bus& bus);
+
+  /// @param channel "CMD_LINK", "CMD_PAYLOAD", "CMD_FORMATION" or "CMD_PATH". @param body as in README.md.
+  /// `done` is called once, possibly at once.
+  void Send(const std::string& channel, const nlohmann::json& body, Done done);
+
+  static constexpr bus::Utime kResendAfter = 1 * bus::kSecond;
+  static constexpr bus::Utime kGiveUpAfter = 2 * bus::kSecond;
+  static constexpr std::size_t kMaxWaiting = 64;
+
+ private:
+  struct Waiting {
+    std::string channel;
+    std::function<void()> publish;
+    Done done;
+  };
+
+  template <typename Command>
+  void Publish(const std::string& channel, Command command, Done done);
+  void Hear(const ack_t& ack);
+  void Finish(std::int64_t request_id, const CommandResult& result);
+
+  bus::Bus& bus_;
+  std::int64_t last_request_id_ = 0;
+  std::map<std::int64_t, Waiting> waiting_;
+};
+
+}  // namespace skein::bridge

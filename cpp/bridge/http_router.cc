@@ -1,0 +1,149 @@
+#include "bridge/http_router.h"
+
+#include <nlohmann/json.hpp>
+
+namespace skein::bridge {
+namespace {
+
+namespace http = boost::beast::http;
+using http::field;
+using http::status;
+
+constexpr std::string_view kJson = "application/json";
+
+std::string_view View(boost::beast::string_view text) { return {text.data(), text.size()}; }
+
+std::string_view Path(const HttpHead& head) {
+  const std::string_view target = View(head.target());
+  return target.substr(0, target.find('?'));
+}
+
+bool Reads(const HttpHead& head) {
+  return head.method() == http::verb::get || head.method() == http::verb::head;
+}
+
+status StatusOf(CommandResult::Outcome outcome) {
+  switch (outcome) {
+    case CommandResult::Outcome::kAccepted:
+      return status::ok;
+    case CommandResult::Outcome::kRefused:
+      return status::conflict;
+    case CommandResult::Outcome::kMalformed:
+      return status::bad_request;
+    case CommandResult::Outcome::kBusy:
+      return status::service_unavailable;
+    case CommandResult::Outcome::kNoAnswer:
+      break;
+  }
+  return status::gateway_timeout;
+}
+
+std::string ResultJson(const CommandResult& result) {
+  return nlohmann::json{{"accepted", result.accepted()}, {"reason", result.reason}}.dump();
+}
+
+}  // namespace
+
+HttpRouter::HttpRouter(const RouterOptions& options, Backend backend)
+    : access_(options.allowed_hosts),
+      files_(options.web_folder),
+      content_security_policy_(ContentSecurityPolicy(options.tile_url)),
+      backend_(std::move(backend)) {}
+
+std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::string_view local_address,
+                                                 bool upgrade) const {
+  if (head.count(field::host) != 1) return Plain(status::bad_request, "One Host header is needed.");
+  const std::string_view host = View(head[field::host]);
+  if (!access_.HostIsOurs(host, local_address)) {
+    return Plain(
+        status::forbidden,
+        "This web-bridge is not called by that name. If it should be, start it with --allow-host NAME.");
+  }
+  // Programs send no Origin. Browsers send it with whatever could do something, and it cannot be forged
+  // there.
+  const bool foreign =
+      head.count(field::origin) > 1 ||
+      (head.count(field::origin) == 1 && !AccessRules::SameOrigin(View(head[field::origin]), host));
+  if (foreign && (upgrade || !Reads(head))) {
+    return Plain(status::forbidden, "Only the page that this web-bridge serves may do that.");
+  }
+  const std::string_view path = Path(head);
+  if (upgrade != (path == "/live")) {
+    if (upgrade) return Plain(status::not_found, "The WebSocket is at /live.");
+    HttpResponse response = Plain(status::upgrade_required, "This is a WebSocket.");
+    response.set(field::upgrade, "websocket");
+    return response;
+  }
+  const bool command = path == "/api/command";
+  if (!upgrade && (command ? head.method() != http::verb::post : !Reads(head))) {
+    HttpResponse response = Plain(status::method_not_allowed, "Not with this method.");
+    response.set(field::allow, command ? "POST" : "GET, HEAD");
+    return response;
+  }
+  return std::nullopt;
+}
+
+void HttpRouter::Answer(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {
+  const std::string_view path = Path(request);
+  const auto respond_json = [this, respond](const std::string& json) {
+    respond(Make(status::ok, kJson, json));
+  };
+  if (path == "/api/state") {
+    backend_.state(respond_json);
+  } else if (path == "/api/vehicles") {
+    backend_.vehicles(respond_json);
+  } else if (path == "/api/command") {
+    Command(request, std::move(respond));
+  } else if (path.starts_with("/api/")) {
+    respond(Plain(status::not_found, "The API has /api/state, /api/vehicles and /api/command."));
+  } else {
+    respond(File(request));
+  }
+}
+
+HttpResponse HttpRouter::Plain(status status, std::string text) const {
+  return Make(status, "text/plain; charset=utf-8", std::move(text) + "\n");
+}
+
+HttpResponse HttpRouter::Make(status status, std::string_view mime_type, std::string body) const {
+  HttpResponse response(status, 11, std::move(body));
+  const auto set = [&](auto name, std::string_view value) {
+    response.set(name, {value.data(), value.size()});
+  };
+  set(field::server, "web-bridge");
+  set(field::content_type, mime_type);
+  set(field::cache_control, "no-store");
+  set("Content-Security-Policy", content_security_policy_);
+  set("X-Content-Type-Options", "nosniff");
+  set("Cross-Origin-Resource-Policy", "same-origin");
+  response.content_length(response.body().size());
+  return response;
+}
+
+HttpResponse HttpRouter::File(const HttpRequest& request) const {
+  auto file = files_.Find(View(request.target()));
+  if (!file) return Plain(status::not_found, "There is no such file.");
+  const bool known = View(request[field::if_none_match]) == file->etag;
+  HttpResponse response = Make(known ? status::not_modified : status::ok, file->mime_type,
+                               known ? std::string() : std::move(file->content));
+  response.set(field::cache_control, {file->cache_control.data(), file->cache_control.size()});
+  response.set(field::etag, file->etag);
+  if (known) response.erase(field::content_length);
+  return response;
+}
+
+void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {
+  const auto finish = [this, respond](const CommandResult& result) {
+    respond(Make(StatusOf(result.outcome), kJson, ResultJson(result)));
+  };
+  auto command = nlohmann::json::parse(request.body(), nullptr, false);
+  const auto refuse = [&](const char* reason) { finish({CommandResult::Outcome::kMalformed, reason}); };
+  if (!command.is_object()) return refuse("the request is no JSON object");
+  if (!command.contains("channel") || !command["channel"].is_string())
+    return refuse("channel: must be a text");
+  if (!command.contains("body")) return refuse("body: is missing");
+  if (command.size() != 2) return refuse("only channel and body belong in the request");
+  backend_.command(command["channel"], std::move(command["body"]), finish);
+}
+
+}  // namespace skein::bridge

@@ -1,0 +1,56 @@
+#pragma once
+
+// GCC 12 with Boost 1.74 needs <utility> before Boost's own headers.
+#include <utility>
+
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/http/string_body.hpp>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "bridge/access_rules.h"
+#include "bridge/backend.h"
+#include "bridge/static_files.h"
+
+namespace skein::bridge {
+
+using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
+using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
+using HttpHead = boost::beast::http::request_header<>;
+
+struct RouterOptions {
+  std::filesystem::path web_folder;
+  std::vector<std::string> allowed_hosts;
+  std::string tile_url;  ///< "": none
+};
+
+/// Answers HTTP requests: the page, the JSON API, and why not.
+class HttpRouter {
+ public:
+  HttpRouter(const RouterOptions& options, Backend backend);
+
+  /// An answer that turns a request away for who sends it or for where to, before its body is read.
+  /// @param local_address that the connection came in on. @param upgrade it wants to become a WebSocket.
+  std::optional<HttpResponse> TurnAway(const HttpHead& head, std::string_view local_address,
+                                       bool upgrade) const;
+
+  /// `respond` is called once, possibly at once.
+  void Answer(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
+
+  /// An answer with a sentence in it.
+  HttpResponse Plain(boost::beast::http::status status, std::string text) const;
+
+ private:
+  HttpResponse Make(boost::beast::http::status status, std::string_view mime_type, std::string body) const;
+  HttpResponse File(const HttpRequest& request) const;
+  void Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
+
+  AccessRules access_;
+  StaticFiles files_;
+  std::string content_security_policy_;
+  Backend backend_;
+};
+
+}  // namespace skein::bridge

@@ -1,0 +1,150 @@
+#include "bridge/json_messages.h"
+
+namespace skein::bridge {
+namespace {
+
+/// Applies ToJson-like `convert` to each.
+template <typename Items, typename Convert>
+Json Each(const Items& items, Convert convert) {
+  Json result = Json::array();
+  for (const auto& item : items) result.push_back(convert(item));
+  return result;
+}
+
+Json Vehicle(const vehicle_info_t& info) {
+  return {{"id", info.id},
+          {"callsign", info.callsign},
+          {"model", info.model},
+          {"k_speed_per_s", info.k_speed_per_s},
+          {"k_course_per_s", info.k_course_per_s},
+          {"k_climb_per_s", info.k_climb_per_s},
+          {"min_speed_m_s", info.min_speed_m_s},
+          {"max_speed_m_s", info.max_speed_m_s},
+          {"max_acceleration_m_s2", info.max_acceleration_m_s2},
+          {"max_course_rate_rad_s", info.max_course_rate_rad_s},
+          {"max_climb_rad", info.max_climb_rad},
+          {"max_climb_rate_rad_s", info.max_climb_rate_rad_s},
+          {"has_payload", info.has_payload != 0}};
+}
+
+Json Slot(const slot_t& slot) {
+  return {{"vehicle_id", slot.vehicle_id},
+          {"forward_m", slot.forward_m},
+          {"left_m", slot.left_m},
+          {"up_m", slot.up_m}};
+}
+
+Json SlotStatus(const slot_status_t& slot) {
+  return {{"vehicle_id", slot.vehicle_id},           {"slot_east_m", slot.slot_east_m},
+          {"slot_north_m", slot.slot_north_m},       {"slot_up_m", slot.slot_up_m},
+          {"forward_error_m", slot.forward_error_m}, {"left_error_m", slot.left_error_m},
+          {"up_error_m", slot.up_error_m},           {"flown", slot.flown != 0}};
+}
+
+Json Point(const waypoint_t& point) {
+  return {{"east_m", point.east_m},
+          {"north_m", point.north_m},
+          {"up_m", point.up_m},
+          {"speed_m_s", point.speed_m_s},
+          {"turn_radius_m", point.turn_radius_m}};
+}
+
+}  // namespace
+
+Json ToJson(const fleet_roster_t& roster) {
+  return {{"type", "roster"},
+          {"utime", roster.utime},
+          {"scenario", roster.scenario},
+          {"start_utime", roster.start_utime},
+          {"origin",
+           {{"latitude_deg", roster.origin_latitude_deg},
+            {"longitude_deg", roster.origin_longitude_deg},
+            {"altitude_m", roster.origin_altitude_m}}},
+          {"vehicles", Each(roster.vehicles, Vehicle)}};
+}
+
+Json ToJson(const formation_t& formation) {
+  return {{"type", "formation"},
+          {"utime", formation.utime},
+          {"formation_id", formation.formation_id},
+          {"name", formation.name},
+          {"control", formation.control},
+          {"shape", formation.shape},
+          {"spacing_m", formation.spacing_m},
+          {"lead_m", formation.lead_m},
+          {"radius_m", formation.radius_m},
+          {"height_m", formation.height_m},
+          {"d_mod_m", formation.d_mod_m},
+          {"advisory_tau_s", formation.advisory_tau_s},
+          {"caution_tau_s", formation.caution_tau_s},
+          {"hold", formation.hold != 0},
+          {"parameters", Each(formation.parameters,
+                              [](const parameter_t& parameter) {
+                                return Json{{"name", parameter.name}, {"value", parameter.value}};
+                              })},
+          {"slots", Each(formation.slots, Slot)}};
+}
+
+Json ToJson(const formation_status_t& status) {
+  return {{"type", "status"},
+          {"utime", status.utime},
+          {"formation_id", status.formation_id},
+          {"tick", status.tick},
+          {"mode", status.mode},
+          {"mode_utime", status.mode_utime},
+          {"mode_end_utime", status.mode_end_utime},
+          {"mode_text", status.mode_text},
+          {"leader_east_m", status.leader_east_m},
+          {"leader_north_m", status.leader_north_m},
+          {"leader_up_m", status.leader_up_m},
+          {"leader_speed_m_s", status.leader_speed_m_s},
+          {"leader_course_rad", status.leader_course_rad},
+          {"leader_climb_rad", status.leader_climb_rad},
+          {"leader_arc_m", status.leader_arc_m},
+          {"path_revision", status.path_revision},
+          {"avoidance_up_m", status.avoidance_up_m},
+          {"avoidance_rate_m_s", status.avoidance_rate_m_s},
+          {"avoidance_target_m", status.avoidance_target_m},
+          {"slots", Each(status.slots, SlotStatus)}};
+}
+
+Json ToJson(const event_t& event) {
+  return {{"type", "event"},
+          {"utime", event.utime},
+          {"event_node", event.event_node},
+          {"event_sequence", event.event_sequence},
+          {"severity", event.severity},
+          {"code", event.code},
+          {"vehicle_id", event.vehicle_id},
+          {"formation_id", event.formation_id},
+          {"text", event.text}};
+}
+
+Json ToJson(const heartbeat_t& heartbeat) {
+  return {{"type", "heartbeat"},
+          {"utime", heartbeat.utime},
+          {"heartbeat_node", heartbeat.heartbeat_node},
+          {"version", heartbeat.version},
+          {"session_id", heartbeat.session_id},
+          {"start_utime", heartbeat.start_utime},
+          {"messages_in", heartbeat.messages_in},
+          {"messages_out", heartbeat.messages_out},
+          {"gaps", heartbeat.gaps},
+          {"undecodable", heartbeat.undecodable},
+          {"handler_exceptions", heartbeat.handler_exceptions},
+          {"worst_handler_us", heartbeat.worst_handler_us},
+          {"receive_buffer_bytes", heartbeat.receive_buffer_bytes}};
+}
+
+Json ToJson(const path_t& path) {
+  return {{"type", "path"},
+          {"utime", path.utime},
+          {"formation_id", path.formation_id},
+          {"path_revision", path.path_revision},
+          {"closed", path.loop_start_m != -1},
+          {"waypoints", Each(path.waypoints, Point)}};
+}
+
+std::string Dump(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace skein::bridge

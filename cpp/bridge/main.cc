@@ -1,0 +1,50 @@
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+
+#include "bridge/access_rules.h"
+#include "bridge/static_files.h"
+#include "bridge/web_bridge.h"
+#include "bus/node_main.h"
+
+int main(int argc, char** argv) {
+  namespace bridge = skein::bridge;
+  skein::bus::NodeMain node("web-bridge",
+                            "Serves the web app, streams the bus to browsers and takes their commands.");
+  bridge::BridgeOptions options;
+  options.web_folder = bridge::DefaultWebFolder(std::filesystem::read_symlink("/proc/self/exe"));
+  std::string web_folder;
+  node.app()
+      .add_option("--listen", options.listen,
+                  "Address to listen on: anybody who reaches it may command the fleet")
+      ->capture_default_str();
+  node.app().add_option("--port", options.port, "TCP port, 0 for a free one")->capture_default_str();
+  node.app()
+      .add_option("--web", web_folder, "Folder of the built web app (default: the project's own)")
+      ->check(CLI::ExistingDirectory);
+  node.app().add_option(
+      "--allow-host", options.allowed_hosts,
+      "Name by which browsers may call this bridge, beside localhost and its address; may be repeated");
+  node.app()
+      .add_option("--tile-url", options.hello.tile_url,
+                  "Map tiles over the offline map, such as https://tile.openstreetmap.org/{z}/{x}/{y}.png")
+      ->check([](const std::string& url) { return bridge::TileUrlProblem(url); });
+  node.app().add_option("--tile-attribution", options.hello.tile_attribution,
+                        "What the map must say of its tiles");
+  return node.Run(argc, argv, [&](skein::bus::Bus& bus, skein::bus::LiveExecutor& executor) {
+    if (!web_folder.empty()) {
+      options.web_folder = web_folder;
+      if (!std::filesystem::exists(options.web_folder / "index.html")) {
+        throw std::runtime_error("--web " + web_folder + ": holds no index.html");
+      }
+    }
+    options.hello.version = SKEIN_VERSION;
+    options.hello.lcm_url = node.lcm_url();
+    auto result = std::make_shared<bridge::WebBridge>(bus, executor, options);
+    spdlog::info("http://{}:{}", options.listen, result->port());
+    return result;
+  });
+}

@@ -1,0 +1,47 @@
+#include "bridge/web_bridge.h"
+
+#include <boost/asio/post.hpp>
+
+namespace skein::bridge {
+
+WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOptions& options)
+    : mirror_(bus, options.hello,
+              [this](const LiveFrame& frame) {
+                boost::asio::post(web_context_, [this, frame] { server_.hub().Broadcast(frame); });
+              }),
+      gateway_(bus),
+      server_(web_context_, options.listen, options.port,
+              {options.web_folder, options.allowed_hosts, options.hello.tile_url}, MakeBackend(executor)),
+      port_(server_.port()),
+      web_thread_([this] { web_context_.run(); }) {}
+
+WebBridge::~WebBridge() {
+  web_context_.stop();
+  web_thread_.join();
+}
+
+Backend WebBridge::MakeBackend(bus::LiveExecutor& executor) {
+  // Over to the bus's thread for the result, and back with it.
+  const auto ask = [this, &executor](auto make_result) {
+    return [this, &executor, make_result](auto reply) {
+      executor.Post([this, make_result, reply] {
+        boost::asio::post(web_context_, [reply, result = make_result()] { reply(result); });
+      });
+    };
+  };
+  Backend backend;
+  backend.snapshot = ask([this] { return mirror_.Snapshot(); });
+  backend.state = ask([this] { return Dump(mirror_.State()); });
+  backend.vehicles = ask([this] { return Dump(mirror_.Vehicles()); });
+  backend.command = [this, &executor](const std::string& channel, const nlohmann::json& body,
+                                      const Backend::Reply<CommandResult>& reply) {
+    executor.Post([this, channel, body, reply] {
+      gateway_.Send(channel, body, [this, reply](const CommandResult& result) {
+        boost::asio::post(web_context_, [reply, result] { reply(result); });
+      });
+    });
+  };
+  return backend;
+}
+
+}  // namespace skein::bridge

@@ -1,0 +1,53 @@
+#pragma once
+
+// GCC 12 with Boost 1.74 needs <utility> before Asio.
+#include <utility>
+
+#include <boost/asio/io_context.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "bridge/bus_mirror.h"
+#include "bridge/command_gateway.h"
+#include "bridge/web_server.h"
+#include "bus/live_executor.h"
+
+namespace skein::bridge {
+
+struct BridgeOptions {
+  std::string listen = "127.0.0.1";
+  std::uint16_t port = 8080;  ///< 0: any that is free
+  std::filesystem::path web_folder;
+  std::vector<std::string> allowed_hosts;
+  HelloInfo hello;
+};
+
+/// The bus on one side, browsers on the other, a thread each. Mirror and gateway live on the bus's thread,
+/// the web server on its own; they share nothing but frames that never change, and hand work over by posting
+/// it. README.md draws it.
+class WebBridge {
+ public:
+  /// Serves at once. Throws bus::StartError when it cannot listen. `executor` is that of `bus`, and does not
+  /// run any more when the bridge ends.
+  WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOptions& options);
+  ~WebBridge();
+  WebBridge(const WebBridge&) = delete;
+  WebBridge& operator=(const WebBridge&) = delete;
+
+  std::uint16_t port() const { return port_; }
+
+ private:
+  Backend MakeBackend(bus::LiveExecutor& executor);
+
+  BusMirror mirror_;
+  CommandGateway gateway_;
+  boost::asio::io_context web_context_;
+  WebServer server_;
+  std::uint16_t port_;
+  std::thread web_thread_;
+};
+
+}  // namespace skein::bridge

@@ -1,0 +1,198 @@
+#include "bridge/web_server.h"
+
+#include <spdlog/spdlog.h>
+
+#include <array>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/use_awaitable.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/read.hpp>
+#include <boost/beast/http/write.hpp>
+#include <exception>
+
+#include "bus/transport.h"
+
+namespace skein::bridge {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+using Error = boost::system::error_code;
+using Tcp = asio::ip::tcp;
+using std::chrono::seconds;
+
+constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
+// A whole header must have come in by then, also the next one of a connection that is kept.
+constexpr seconds kHeaderTime{20};
+constexpr seconds kBodyTime{20};
+// The largest file takes 30 s over 2 Mbit/s.
+constexpr seconds kResponseTime{60};
+constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
+constexpr std::uint64_t kMaxBodyBytes = 1u << 20;
+
+Tcp::acceptor Listen(asio::io_context& context, const std::string& address, std::uint16_t port) {
+  const std::string where = address + ":" + std::to_string(port);
+  Error error;
+  const auto ip = asio::ip::make_address(address == "localhost" ? "127.0.0.1" : address, error);
+  if (error) throw bus::StartError("--listen " + address + ": is not an IP address of this host");
+  Tcp::acceptor acceptor(context);
+  const Tcp::endpoint endpoint(ip, port);
+  acceptor.open(endpoint.protocol(), error);
+  if (!error) acceptor.set_option(asio::socket_base::reuse_address(true), error);
+  if (!error) acceptor.bind(endpoint, error);
+  if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
+  if (error == asio::error::address_in_use) {
+    throw bus::StartError("port " + std::to_string(port) + " on " + address +
+                          " is taken by another program: choose another one with --port N");
+  }
+  if (error) throw bus::StartError("cannot listen on " + where + ": " + error.message());
+  return acceptor;
+}
+
+/// The answer to a request that could not be read; none when the other side went away or was too slow.
+std::optional<http::status> StatusOf(Error error) {
+  if (error == http::error::header_limit) return http::status::request_header_fields_too_large;
+  if (error == http::error::body_limit) return http::status::payload_too_large;
+  const bool malformed = error.category() == make_error_code(http::error::bad_method).category();
+  if (malformed && error != http::error::end_of_stream && error != http::error::partial_message) {
+    return http::status::bad_request;
+  }
+  return std::nullopt;
+}
+
+asio::awaitable<Error> Write(beast::tcp_stream& stream, const HttpResponse& response, bool head) {
+  stream.expires_after(kResponseTime);
+  if (!head) {
+    const auto [error, size] = co_await http::async_write(stream, response, kAwait);
+    co_return error;
+  }
+  // The same header, length included, and nothing behind it.
+  const http::response<http::empty_body> bodiless(response.base());
+  const auto [error, size] = co_await http::async_write(stream, bodiless, kAwait);
+  co_return error;
+}
+
+/// Says that no more comes and lets the answer arrive; closing at once while the other side still sends would
+/// reset the connection.
+asio::awaitable<void> Close(beast::tcp_stream& stream) {
+  Error ignored;
+  stream.socket().shutdown(Tcp::socket::shutdown_send, ignored);
+  stream.expires_after(seconds(2));
+  std::array<char, 4096> rest;
+  for (;;) {
+    const auto [error, size] = co_await stream.async_read_some(asio::buffer(rest), kAwait);
+    if (error) break;
+  }
+}
+
+}  // namespace
+
+WebServer::WebServer(asio::io_context& context, const std::string& address, std::uint16_t port,
+                     const RouterOptions& options, const Backend& backend)
+    : context_(context), acceptor_(Listen(context, address, port)), router_(options, backend), hub_(backend) {
+  asio::co_spawn(context_, AcceptAll(), asio::detached);
+}
+
+asio::awaitable<void> WebServer::AcceptAll() {
+  // Each connection holds a share of it.
+  const auto connections = std::make_shared<int>();
+  for (;;) {
+    auto [error, socket] = co_await acceptor_.async_accept(kAwait);
+    if (error) {
+      // Out of file descriptors, most likely; connections that end give some back.
+      asio::steady_timer pause(context_, std::chrono::milliseconds(100));
+      co_await pause.async_wait(kAwait);
+      continue;
+    }
+    if (connections.use_count() > kMaxConnections) continue;
+    asio::co_spawn(context_, Serve(std::move(socket), connections), [](std::exception_ptr failure) {
+      if (!failure) return;
+      try {
+        std::rethrow_exception(failure);
+      } catch (const std::exception& exception) {
+        spdlog::error("a connection failed: {}", exception.what());
+      }
+    });
+  }
+}
+
+asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std::shared_ptr<void> place) {
+  Error error;
+  const Tcp::endpoint local = socket.local_endpoint(error);
+  if (error) co_return;
+  const std::string local_address = local.address().to_string();
+  socket.set_option(Tcp::no_delay(true), error);
+  beast::tcp_stream stream(std::move(socket));
+  beast::flat_buffer buffer(kMaxHeaderBytes + 64 * 1024);
+  for (bool keep_alive = true; keep_alive;) {
+    http::request_parser<http::string_body> parser;
+    parser.header_limit(kMaxHeaderBytes);
+    parser.body_limit(kMaxBodyBytes);
+    stream.expires_after(kHeaderTime);
+    std::tie(error, std::ignore) = co_await http::async_read_header(stream, buffer, parser, kAwait);
+    std::optional<HttpResponse> response;
+    if (!error) {
+      const bool upgrade = beast::websocket::is_upgrade(parser.get());
+      response = router_.TurnAway(parser.get(), local_address, upgrade);
+      if (!response && upgrade) {
+        co_await ServeLive(std::move(stream), parser.release());
+        co_return;
+      }
+      if (!response && beast::iequals(parser.get()[http::field::expect], "100-continue")) {
+        const http::response<http::empty_body> go_on(http::status::continue_, 11);
+        std::tie(error, std::ignore) = co_await http::async_write(stream, go_on, kAwait);
+      }
+      if (!response && !error) {
+        stream.expires_after(kBodyTime);
+        std::tie(error, std::ignore) = co_await http::async_read(stream, buffer, parser, kAwait);
+      }
+    }
+    const HttpRequest request = parser.release();
+    const bool whole = !response && !error;
+    if (error) {
+      const auto status = StatusOf(error);
+      if (!status) break;
+      response = router_.Plain(*status, "The request cannot be read: " + error.message() + ".");
+    } else if (!response) {
+      response = co_await Answer(request);
+    }
+    // A body that was not read would be taken for the next request.
+    keep_alive = whole && request.keep_alive();
+    response->keep_alive(keep_alive);
+    error = co_await Write(stream, *response, request.method() == http::verb::head);
+    if (error) co_return;
+  }
+  co_await Close(stream);
+}
+
+asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request) {
+  // The answer may come after this connection is gone, so what it touches is shared.
+  struct Pending {
+    asio::steady_timer answered;
+    std::optional<HttpResponse> response;
+  };
+  const auto pending = std::make_shared<Pending>(
+      Pending{asio::steady_timer(context_, asio::steady_timer::time_point::max()), std::nullopt});
+  router_.Answer(request, [pending](HttpResponse response) {
+    pending->response = std::move(response);
+    pending->answered.cancel();
+  });
+  while (!pending->response) co_await pending->answered.async_wait(kAwait);
+  co_return std::move(*pending->response);
+}
+
+asio::awaitable<void> WebServer::ServeLive(beast::tcp_stream stream, HttpRequest request) {
+  const auto session = std::make_shared<LiveSession>(std::move(stream));
+  const bool accepted = co_await session->Accept(request);
+  if (!accepted) co_return;
+  hub_.Join(session);
+  co_await session->Run(
+      [this](const std::shared_ptr<LiveSession>& from, const std::string& text) { hub_.Hear(from, text); });
+}
+
+}  // namespace skein::bridge

@@ -1,0 +1,44 @@
+#pragma once
+
+// GCC 12 with Boost 1.74 needs <utility> before Asio.
+#include <utility>
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "bridge/http_router.h"
+#include "bridge/live_hub.h"
+
+namespace skein::bridge {
+
+/// Page, JSON API and WebSocket on one port. Runs on, and belongs to, the thread that runs `context`.
+class WebServer {
+ public:
+  /// Listens at once; `port` 0 takes a free one. Throws bus::StartError, saying what to do, when it cannot.
+  WebServer(boost::asio::io_context& context, const std::string& address, std::uint16_t port,
+            const RouterOptions& options, const Backend& backend);
+
+  std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
+  LiveHub& hub() { return hub_; }
+
+  static constexpr int kMaxConnections = 256;
+
+ private:
+  using Tcp = boost::asio::ip::tcp;
+  boost::asio::awaitable<void> AcceptAll();
+  boost::asio::awaitable<void> Serve(Tcp::socket socket, std::shared_ptr<void> place);
+  boost::asio::awaitable<HttpResponse> Answer(const HttpRequest& request);
+  boost::asio::awaitable<void> ServeLive(boost::beast::tcp_stream stream, HttpRequest request);
+
+  boost::asio::io_context& context_;
+  Tcp::acceptor acceptor_;
+  HttpRouter router_;
+  LiveHub hub_;
+};
+
+}  // namespace skein::bridge
