@@ -17,7 +17,9 @@
 namespace skein::bus {
 
 /// Encoded items in one chunk are at most this long [B]: see tests/bench/README.md for how it was chosen.
-inline constexpr int kChunkBytes = 8000;
+inline constexpr int kChunkBytes = 7000;
+/// So much goes out at once; a third of what the kernel's default buffer holds.
+inline constexpr int kBurstBytes = 20'000;
 
 /// Splits a message into chunks of at most kChunkBytes of items; at least one chunk, even when there is
 /// nothing in it.
@@ -45,10 +47,21 @@ std::vector<Message> Split(const Message& whole, int chunk_bytes = kChunkBytes) 
   return chunks;
 }
 
-/// Publishes a message in chunks; chunk, chunk_count and the item count are filled in.
+/// Publishes a message in chunks; chunk, chunk_count and the item count are filled in. A long burst is paused
+/// now and then, because loss comes from bursts.
 template <typename Message>
-void PublishChunks(Bus& bus, const std::string& channel, const Message& whole) {
-  for (const Message& chunk : Split(whole)) bus.Publish(channel, chunk);
+void PublishChunks(Bus& bus, const std::string& channel, const Message& whole,
+                   int chunk_bytes = kChunkBytes) {
+  int burst_bytes = 0;
+  for (const Message& chunk : Split(whole, chunk_bytes)) {
+    const int size = chunk.getEncodedSize();
+    if (burst_bytes > 0 && burst_bytes + size > kBurstBytes) {
+      bus.executor().PauseBurst();
+      burst_bytes = 0;
+    }
+    bus.Publish(channel, chunk);
+    burst_bytes += size;
+  }
 }
 
 /// Puts the chunks of a set (a tick, a sweep) together again. The handler gets a set when its last chunk has

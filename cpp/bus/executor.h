@@ -33,6 +33,10 @@ class Executor {
   /// Calls `callback` once, at `when` or, if that has passed, as soon as it can. Same time: in the order of
   /// the calls.
   virtual void At(Utime when, std::function<void()> callback) = 0;
+
+  /// Called in the midst of a long burst of messages. Live: sleeps a moment, so that receivers can empty
+  /// their buffers.
+  virtual void PauseBurst() {}
 };
 
 }  // namespace skein::bus

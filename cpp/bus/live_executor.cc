@@ -13,10 +13,14 @@
 #include <exception>
 #include <stdexcept>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace skein::bus {
 namespace {
+
+// Long enough for other processes to get a turn on a busy machine, short against a tick.
+constexpr auto kBurstPause = std::chrono::milliseconds(1);
 
 // Timers get their turn after so many messages at the latest.
 constexpr int kMessagesInARow = 100;
@@ -80,6 +84,8 @@ void LiveExecutor::Every(Utime period, std::function<void()> callback, Utime pha
 }
 
 void LiveExecutor::At(Utime when, std::function<void()> callback) { timers_.At(when, std::move(callback)); }
+
+void LiveExecutor::PauseBurst() { std::this_thread::sleep_for(kBurstPause); }
 
 void LiveExecutor::Post(std::function<void()> callback) {
   {

@@ -29,6 +29,7 @@ class LiveExecutor : public Executor {
   Utime Now() const override;
   void Every(Utime period, std::function<void()> callback, Utime phase = 0) override;
   void At(Utime when, std::function<void()> callback) override;
+  void PauseBurst() override;
 
   /// Has `callback` run on the executor's thread. The only functions here for other threads: this and Stop().
   void Post(std::function<void()> callback);

@@ -16,11 +16,15 @@
 namespace skein::bus {
 namespace {
 
+// Asked for when the URL says nothing. The kernel grants as much of it as net.core.rmem_max allows: by
+// default that is still twice of what it gives unasked.
+constexpr int kReceiveBufferBytes = 4 * 1024 * 1024;
+
 /// The parts of an udpm:// URL that matter here.
 struct UdpUrl {
   std::string group;
   int port = 7667;
-  int wanted_buffer_bytes = 0;  ///< 0: the kernel's default
+  int wanted_buffer_bytes = 0;  ///< 0: not said
 };
 
 std::optional<UdpUrl> ParseUdpUrl(const std::string& url) {
@@ -88,7 +92,12 @@ std::string DefaultUrl() {
 Transport MakeTransport(const std::string& url) {
   const auto udp = ParseUdpUrl(url);
   if (udp) CheckUdp(*udp, url);
-  Transport transport{std::make_shared<lcm::LCM>(url), 0};
+  std::string full_url = url;
+  if (udp && udp->wanted_buffer_bytes == 0) {
+    full_url += (url.find('?') == std::string::npos ? "?" : "&") +
+                ("recv_buf_size=" + std::to_string(kReceiveBufferBytes));
+  }
+  Transport transport{std::make_shared<lcm::LCM>(full_url), 0};
   // Asking for the file descriptor makes LCM open its receiving side, with a test of its own.
   if (!transport.lcm->good() || transport.lcm->getFileno() < 0) {
     const std::string advice =

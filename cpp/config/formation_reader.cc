@@ -5,6 +5,7 @@
 #include "config/readers.h"
 #include "core/frames.h"
 #include "core/paper_law.h"
+#include "core/skein_law.h"
 
 namespace skein::config {
 namespace {
@@ -45,7 +46,11 @@ std::map<std::string, double> ReadGains(const Value& value, const std::string& c
   for (const auto& [name, member] : value.Members()) {
     gains[name] = member.Number({-1e6, 1e6});
     try {
-      if (control == "paper") PaperParametersFrom({{name, gains[name]}});
+      if (control == "paper") {
+        PaperParametersFrom({{name, gains[name]}});
+      } else {
+        SkeinLawParametersFrom({{name, gains[name]}});
+      }
     } catch (const std::invalid_argument& error) {
       member.Refuse(error.what());
     }

@@ -156,7 +156,7 @@ void Avoidance::ChooseBodyTarget(const std::vector<MemberObservation>& members,
         {event_t::INFO, "avoidance_ended", 0, way + " to the planned altitude: all are in place"});
   } else {
     events.push_back({event_t::CAUTION, "avoidance_started", 0,
-                      fmt::format("{}: {} of {}", way, anybody_lost ? "link lost" : "rejoin", who)});
+                      way + ": " + (anybody_lost ? "link of " + who + " lost" : who + " rejoins")});
   }
 }
 

@@ -55,15 +55,20 @@ FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
   for (auto& [id, member] : members_) {
     member.flown = false;
     const auto view = fleet.find(id);
-    if (view == fleet.end() || !view->second.state) continue;
+    if (view == fleet.end() || !view->second.state) {
+      Measure(id, member, nullptr);
+      continue;
+    }
     if (avoidance_.role(id) == Role::kLost) {
       step.commands.push_back({id, HoldLost(member, view->second)});
     } else {
       member.held.reset();
       member.flown = true;
-      if (view->second.fresh) step.commands.push_back({id, Fly(member, view->second, avoidance_.offset(id))});
+      if (view->second.fresh) {
+        step.commands.push_back({id, Fly(member, view->second, avoidance_.offset(id))});
+      }
     }
-    MeasureError(id, member, view->second);
+    Measure(id, member, &view->second);
   }
   UpdateMode(fleet);
   return step;
@@ -168,23 +173,23 @@ LawOutput FormationFlight::HoldLost(Member& member, const VehicleView& view) con
   return HoldAltitude(level, *view.state, view.model);
 }
 
-void FormationFlight::MeasureError(int id, Member& member, const VehicleView& view) {
-  const AltitudeOffset offset = member.flown ? avoidance_.offset(id) : avoidance_.body().now();
-  const VehicleState now = view.At(utime_);
-  const SlotReference slot = SlotOnPath(leader_.path(), leader_.arc_m(), member.slot, offset);
-  if (config_.control == "paper") {
-    const VehicleState leader = LeaderState(leader_.path(), leader_.arc_m(), offset);
-    member.slot_position = Position(leader);
-    member.slot_position.head<2>() +=
-        FromLeaderFrame({member.slot.forward_m, member.slot.left_m}, leader.course_rad);
-    member.slot_position.z() += member.slot.up_m;
-    const Eigen::Vector3d difference = member.slot_position - Position(now);
-    member.error.head<2>() = ToLeaderFrame(difference.head<2>(), leader.course_rad);
-    member.error.z() = difference.z();
-    return;
-  }
-  member.slot_position = slot.position;
-  member.error = SlotError(slot, Position(now));
+SlotReference FormationFlight::PlaceOf(const SlotOffset& slot, const AltitudeOffset& offset) const {
+  if (config_.control != "paper") return SlotOnPath(leader_.path(), leader_.arc_m(), slot, offset);
+  // The paper's slots are rigid in the leader's own frame.
+  const VehicleState leader = LeaderState(leader_.path(), leader_.arc_m(), offset);
+  SlotReference place;
+  place.position = Position(leader);
+  place.position.head<2>() += FromLeaderFrame({slot.forward_m, slot.left_m}, leader.course_rad);
+  place.position.z() += slot.up_m;
+  place.course_rad = leader.course_rad;
+  return place;
+}
+
+void FormationFlight::Measure(int id, Member& member, const VehicleView* view) {
+  const SlotReference place =
+      PlaceOf(member.slot, member.flown ? avoidance_.offset(id) : avoidance_.body().now());
+  member.slot_position = place.position;
+  member.error = view ? SlotError(place, Position(view->At(utime_))) : Eigen::Vector3d(0, 0, 0);
 }
 
 }  // namespace skein::controller

@@ -92,7 +92,8 @@ class FormationFlight {
   bool ReadyToMerge(int id, const Member& member, const VehicleView& view) const;
   LawOutput Fly(Member& member, const VehicleView& view, const AltitudeOffset& offset);
   LawOutput HoldLost(Member& member, const VehicleView& view) const;
-  void MeasureError(int id, Member& member, const VehicleView& view);
+  SlotReference PlaceOf(const SlotOffset& slot, const AltitudeOffset& offset) const;
+  void Measure(int id, Member& member, const VehicleView* view);
   void UpdateMode(const FleetPicture& fleet);
   double KeepBehind() const;
 

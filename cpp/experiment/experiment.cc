@@ -16,7 +16,8 @@
 #include "bus/log_writer.h"
 #include "bus/simulated_executor.h"
 #include "controller/controller_node.h"
-#include "monitor/monitor_node.h"
+#include "monitor/collision_monitor_node.h"
+#include "monitor/scenario_options.h"
 #include "simulator/simulator_node.h"
 
 namespace skein::experiment {
@@ -119,7 +120,7 @@ struct Experiment::Impl {
         // The simulator first: what happens at one instant happens in the order in which the nodes were made.
         simulator(simulator_bus, {.scenario = scenario, .seed = options.seed}),
         controller(controller_bus, {.scenario = scenario, .status_every_ticks = 1, .state_file = {}}),
-        monitor(monitor_bus, {.scenario = scenario}),
+        monitor(monitor_bus, monitor::OptionsOf(scenario)),
         listener(operator_bus),
         start(executor.Now()) {
     for (bus::Bus* node : {&simulator_bus, &controller_bus, &monitor_bus}) bus::StartHeartbeat(*node);

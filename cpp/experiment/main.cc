@@ -29,7 +29,7 @@ struct Arguments {
   fs::path plot;
   std::optional<double> duration_s;
   std::uint64_t seed = 1;
-  std::string log_level = "warn";
+  std::string log_level = "error";
 };
 
 struct Run {

@@ -116,6 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
             R"({"op": "add", "path": "/formations/0", "value": {"id": 7, "control": "paper", "gains": {"k_ev": 2,
                  "k_xy": 1}}})",
             R"(/formations/0/gains/k_xy: control "paper" has no gain "k_xy")"},
+        Fault{R"({"op": "add", "path": "/formations/0/gains", "value": {"k_ev": 2}})",
+              R"(/formations/0/gains/k_ev: k_ev: control "skein" has no such gain)"},
         Fault{R"({"op": "add", "path": "/timeline/0/direction", "value": "sideways"})",
               R"(/timeline/0/direction: unknown direction "sideways"; there are "up", "down", "both")"}));
 

@@ -14,6 +14,37 @@ TEST(ShippedScenarios, AllLoad) {
   EXPECT_GE(count, 7);
 }
 
+/// Why the path of a formation cannot be flown by all of its members, "" when it can.
+std::string WhyNot(const Scenario& scenario, const FormationConfig& formation) {
+  std::vector<VehicleModel> models;
+  std::vector<SlotOffset> slots;
+  for (const Slot& slot : formation.slots) {
+    for (const VehicleConfig& vehicle : scenario.vehicles) {
+      if (vehicle.id == slot.vehicle_id) models.push_back(vehicle.model);
+    }
+    slots.push_back(slot.offset);
+  }
+  const PathLimits limits = LimitsOf(models, slots);
+  if (!formation.path) return "";
+  if (formation.path->legs.empty()) {
+    return PlanWaypoints(formation.path->waypoints, formation.path->closed, limits).reason;
+  }
+  const LeaderConfig& leader = formation.leader;
+  return PlanLegs({leader.east_m, leader.north_m}, leader.course_rad, leader.up_m, leader.speed_m_s,
+                  formation.path->legs, limits)
+      .reason;
+}
+
+TEST(ShippedScenarios, HavePathsThatAllCanFly) {
+  for (const auto& entry : std::filesystem::directory_iterator(SKEIN_SOURCE_DIR "/scripts/scenarios")) {
+    if (entry.path().extension() != ".json") continue;
+    const Scenario scenario = LoadScenario(entry.path());
+    for (const FormationConfig& formation : scenario.formations) {
+      EXPECT_EQ(WhyNot(scenario, formation), "") << entry.path() << ", formation " << formation.id;
+    }
+  }
+}
+
 Scenario Shipped(const std::string& name) {
   return LoadScenario(SKEIN_SOURCE_DIR "/scripts/scenarios/" + name);
 }

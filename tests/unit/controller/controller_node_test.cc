@@ -1,0 +1,295 @@
+#include "controller/controller_node.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <skein/ack_t.hpp>
+#include <skein/event_t.hpp>
+#include <skein/fleet_command_t.hpp>
+
+#include "bus/channels.h"
+#include "bus/chunks.h"
+#include "bus/conversions.h"
+#include "bus/simulated_executor.h"
+#include "bus/transport.h"
+#include "controller/state_file.h"
+#include "core/frames.h"
+
+namespace skein::controller {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr bus::Utime kTick = 50'000;
+
+/// A controller on a bus, and a fleet that the test plays: UAV1 to UAV3 in their slots, UAV9 in no formation.
+class ControllerNodeTest : public testing::Test {
+ protected:
+  ControllerNodeTest() {
+    config::Scenario scenario;
+    config::FormationConfig formation;
+    formation.id = 1;
+    formation.name = "Triangle";
+    formation.shape = Shape::kTriangle;
+    formation.spacing_m = 500;
+    formation.leader = {0, 0, 1000, 50, kPi / 2};
+    const auto offsets = ShapeSlots(Shape::kTriangle, 3, 500);
+    for (int id = 1; id <= 3; ++id)
+      formation.slots.push_back({id, offsets[static_cast<std::size_t>(id - 1)]});
+    scenario.formations.push_back(formation);
+    for (const Slot& slot : formation.slots) {
+      uavs_[slot.vehicle_id] = {-slot.offset.left_m, slot.offset.forward_m, 1000, 50, kPi / 2, 0};
+    }
+    uavs_[9] = {20000, 0, 500, 45, 0, 0};
+    options_.scenario = scenario;
+    station_.Subscribe<fleet_command_t>(bus::channel::kCmdFleet, [this](const fleet_command_t& command) {
+      ++command_messages_;
+      for (const auto& one : command.commands) commands_[one.id] = one;
+      last_ = command;
+    });
+    station_.Subscribe<ack_t>(bus::channel::kAck, [this](const ack_t& ack) { ack_ = ack; });
+    station_.Subscribe<event_t>(bus::channel::kEvent,
+                                [this](const event_t& event) { codes_.push_back(event.code); });
+    station_.Subscribe<formation_t>(bus::channel::kFormation,
+                                    [this](const formation_t& formation) { formation_ = formation; });
+    station_.Subscribe<formation_status_t>(bus::channel::kFormationStatus,
+                                           [this](const formation_status_t& status) { status_ = status; });
+  }
+
+  void Start() { node_ = std::make_unique<FormationControllerNode>(bus_, options_); }
+
+  void SendRoster() {
+    fleet_roster_t roster{};
+    roster.utime = executor_.Now();
+    roster.session_id = 1;
+    roster.start_utime = start_utime_;
+    for (const auto& [id, uav] : uavs_) {
+      roster.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel(), true));
+    }
+    roster.revision = 1;
+    bus::PublishChunks(station_, bus::channel::kFleetRoster, roster);
+    executor_.Deliver();
+  }
+
+  void Fly(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      fleet_state_t state{};
+      state.utime = executor_.Now();
+      state.session_id = 1;
+      state.tick = tick_++;
+      for (const auto& [id, uav] : uavs_) {
+        vehicle_state_t vehicle = bus::ToMessage(uav);
+        vehicle.utime = state.utime;
+        vehicle.id = id;
+        vehicle.command_session_id = 0;
+        vehicle.command_sequence = 0;
+        vehicle.payload_on = 0;
+        state.vehicles.push_back(vehicle);
+      }
+      bus::PublishChunks(station_, bus::channel::kFleetState, state);
+      executor_.Deliver();
+      for (auto& [id, uav] : uavs_) {
+        const auto command = commands_.find(id);
+        AutopilotInput input{uav.speed_m_s, uav.course_rad, 0};
+        if (command != commands_.end()) {
+          input = {command->second.speed_input_m_s, command->second.course_input_rad,
+                   command->second.climb_input_rad};
+        }
+        uav = Step(uav, input, VehicleModel(), 0.05);
+      }
+      executor_.RunFor(kTick);
+    }
+  }
+
+  formation_command_t Command(std::int8_t action) {
+    formation_command_t command{};
+    command.utime = executor_.Now();
+    command.session_id = 77;
+    command.request_id = ++request_id_;
+    command.action = action;
+    command.formation = formation_;
+    return command;
+  }
+
+  ack_t Ask(const formation_command_t& command) {
+    ack_ = {};
+    station_.Publish(bus::channel::kCmdFormation, command);
+    executor_.Deliver();
+    return ack_;
+  }
+
+  bus::Transport transport_ = bus::MakeTransport("memq://");
+  bus::SimulatedExecutor executor_{transport_.lcm};
+  bus::Bus bus_{transport_.lcm, "formation-controller", executor_};
+  bus::Bus station_{transport_.lcm, "test", executor_};
+  ControllerOptions options_;
+  std::unique_ptr<FormationControllerNode> node_;
+  std::map<int, VehicleState> uavs_;
+  bus::Utime start_utime_ = bus::SimulatedExecutor::kStart;
+  std::int64_t tick_ = 0;
+  std::int64_t request_id_ = 0;
+  int command_messages_ = 0;
+  std::map<int, vehicle_command_t> commands_;
+  fleet_command_t last_;
+  ack_t ack_;
+  formation_t formation_;
+  formation_status_t status_;
+  std::vector<std::string> codes_;
+};
+
+TEST_F(ControllerNodeTest, AnswersEachTickAtOnceForEveryUav) {
+  Start();
+  Fly(1);
+  EXPECT_EQ(command_messages_, 0) << "who they are is not known yet";
+  SendRoster();
+  Fly(20);
+  EXPECT_EQ(command_messages_, 20);
+  EXPECT_EQ(commands_.size(), 4u);
+  EXPECT_EQ(last_.state_tick, 20);
+  EXPECT_EQ(last_.request_id, 20);
+  EXPECT_EQ(last_.session_id, bus_.session_id());
+}
+
+TEST_F(ControllerNodeTest, HoldsTheUavsThatAreInNoFormation) {
+  Start();
+  SendRoster();
+  Fly(400);
+  EXPECT_NEAR(uavs_.at(9).up_m, 500, 0.1);
+  EXPECT_NEAR(uavs_.at(9).speed_m_s, 45, 0.01);
+  EXPECT_NEAR(uavs_.at(9).course_rad, 0, 1e-6);
+}
+
+TEST_F(ControllerNodeTest, RepeatsFormationPathAndStatusForThoseWhoJoinLate) {
+  Start();
+  SendRoster();
+  Fly(45);
+  EXPECT_EQ(formation_.formation_id, 1);
+  EXPECT_EQ(formation_.num_slots, 3);
+  EXPECT_EQ(status_.num_slots, 3);
+  EXPECT_EQ(status_.mode, formation_status_t::MODE_IN_FORMATION);
+}
+
+TEST_F(ControllerNodeTest, HoldsResumesAndRemovesAFormation) {
+  Start();
+  SendRoster();
+  Fly(30);
+  EXPECT_TRUE(Ask(Command(formation_command_t::ACTION_HOLD)).accepted);
+  EXPECT_TRUE(formation_.hold);
+  Fly(30);
+  EXPECT_EQ(status_.mode, formation_status_t::MODE_HOLDING);
+  EXPECT_TRUE(Ask(Command(formation_command_t::ACTION_RESUME)).accepted);
+  EXPECT_FALSE(formation_.hold);
+  EXPECT_TRUE(Ask(Command(formation_command_t::ACTION_REMOVE)).accepted);
+  EXPECT_EQ(formation_.num_slots, 0) << "it says that it is gone";
+  const VehicleState before = uavs_.at(1);
+  Fly(200);
+  EXPECT_NEAR(uavs_.at(1).course_rad, before.course_rad, 0.01) << "its UAVs hold";
+  EXPECT_FALSE(Ask(Command(formation_command_t::ACTION_HOLD)).accepted);
+}
+
+TEST_F(ControllerNodeTest, RefusesFormationsThatCannotBe) {
+  Start();
+  EXPECT_NE(Ask(Command(formation_command_t::ACTION_HOLD)).reason.find("no fleet"), std::string::npos);
+  SendRoster();
+  Fly(30);
+  const auto refused = [&](auto change) {
+    formation_command_t command = Command(formation_command_t::ACTION_APPLY);
+    change(command.formation);
+    const ack_t ack = Ask(command);
+    EXPECT_FALSE(ack.accepted);
+    return ack.reason;
+  };
+  EXPECT_NE(refused([](formation_t& f) { f.slots[0].vehicle_id = 5; }).find("no UAV 5"), std::string::npos);
+  EXPECT_NE(refused([](formation_t& f) { f.slots[0].vehicle_id = 2; }).find("two slots"), std::string::npos);
+  EXPECT_NE(refused([](formation_t& f) { f.control = "best"; }).find("best"), std::string::npos);
+  EXPECT_NE(refused([](formation_t& f) { f.d_mod_m = 10; }).find("d_mod_m"), std::string::npos);
+  EXPECT_NE(refused([](formation_t& f) { f.formation_id = 2; }).find("flies in formation 1"),
+            std::string::npos);
+  EXPECT_NE(refused([](formation_t& f) { f.slots.clear(), f.num_slots = 0; }).find("slot"),
+            std::string::npos);
+}
+
+TEST_F(ControllerNodeTest, StartsANewFormationWhereItsUavsFly) {
+  Start();
+  SendRoster();
+  Fly(30);
+  formation_command_t command = Command(formation_command_t::ACTION_APPLY);
+  command.formation.formation_id = 2;
+  bus::SetSlots(command.formation, {{9, {-1000, 0, 0}}});
+  command.formation.shape = "custom";
+  const ack_t ack = Ask(command);
+  EXPECT_TRUE(ack.accepted) << ack.reason;
+  Fly(100);
+  EXPECT_NEAR(uavs_.at(9).up_m, 500, 1) << "it goes on as it flew";
+  EXPECT_NEAR(uavs_.at(9).course_rad, 0, 0.01);
+  EXPECT_EQ(node_->flights().size(), 2u);
+}
+
+TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
+  options_.state_file =
+      std::filesystem::temp_directory_path() / ("skein_state_" + std::to_string(::getpid()));
+  Start();
+  SendRoster();
+  Fly(30);
+  path_command_t path{};
+  path.utime = executor_.Now();
+  path.session_id = 77;
+  path.request_id = ++request_id_;
+  path.formation_id = 1;
+  for (const Waypoint& waypoint : std::vector<Waypoint>{{0, 6000, 1000, 50}, {9000, 9000, 1000, 50}}) {
+    path.waypoints.push_back(bus::ToMessage(waypoint));
+  }
+  path.num_waypoints = 2;
+  station_.Publish(bus::channel::kCmdPath, path);
+  executor_.Deliver();
+  ASSERT_TRUE(ack_.accepted) << ack_.reason;
+  Fly(60);
+  const double arc = node_->flights().at(1).leader().arc_m();
+
+  // Another process with nothing but the file.
+  bus::Transport transport = bus::MakeTransport("memq://");
+  bus::SimulatedExecutor executor(transport.lcm, executor_.Now());
+  bus::Bus other(transport.lcm, "formation-controller", executor);
+  bus::Bus station(transport.lcm, "test", executor);
+  FormationControllerNode restarted(other, options_);
+  fleet_roster_t roster{};
+  roster.utime = executor.Now();
+  roster.session_id = 1;
+  roster.start_utime = start_utime_;
+  for (const auto& [id, uav] : uavs_) {
+    roster.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel(), true));
+  }
+  bus::PublishChunks(station, bus::channel::kFleetRoster, roster);
+  executor.Deliver();
+  ASSERT_EQ(restarted.flights().size(), 1u);
+  const FormationFlight& flight = restarted.flights().at(1);
+  EXPECT_EQ(flight.waypoints().size(), 2u);
+  EXPECT_NEAR(flight.leader().arc_m(), arc, 60) << "as of the last second";
+  EXPECT_NEAR(flight.leader().path().At(arc).position.x(),
+              node_->flights().at(1).leader().path().At(arc).position.x(), 1e-6);
+
+  roster.start_utime += 1;  // another flight: the file is of no use
+  roster.session_id = 2;
+  bus::PublishChunks(station, bus::channel::kFleetRoster, roster);
+  executor.Deliver();
+  EXPECT_TRUE(restarted.flights().at(1).waypoints().empty());
+  std::filesystem::remove(options_.state_file);
+}
+
+TEST(StateFile, RefusesWhatIsDamaged) {
+  const auto file = std::filesystem::temp_directory_path() / ("skein_damaged_" + std::to_string(::getpid()));
+  EXPECT_FALSE(ReadState(file)) << "there is none";
+  ControllerState state;
+  state.start_utime = 5;
+  WriteState(file, state);
+  ASSERT_TRUE(ReadState(file));
+  EXPECT_EQ(ReadState(file)->start_utime, 5);
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) - 1);
+  EXPECT_FALSE(ReadState(file));
+  std::filesystem::remove(file);
+  EXPECT_THROW(WriteState("/nowhere/at/all", state), std::exception);
+}
+
+}  // namespace
+}  // namespace skein::controller
