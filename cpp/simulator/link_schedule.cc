@@ -46,7 +46,7 @@ Account Describe(const SimulatedVehicle& vehicle, const LinkSetting& uplink_befo
   if (was_cut(uplink_before, uplink) || was_cut(downlink_before, downlink)) {
     account.code = "link_cut";
   } else if (was_restored(uplink_before, uplink) || was_restored(downlink_before, downlink)) {
-    account.code = "link_restored";
+    account.code = "link_cut_ended";
   } else {
     account.code = "link_set";
   }

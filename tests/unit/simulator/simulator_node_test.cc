@@ -248,7 +248,7 @@ TEST_F(SimulatorTest, TimelineCutsAndRestoresALinkOnTime) {
   EXPECT_EQ(events_[0].severity, event_t::INFO);
   EXPECT_EQ(events_[0].vehicle_id, 3);
   EXPECT_EQ(events_[0].text, "data link of UAV3 is cut");
-  EXPECT_EQ(events_[1].code, "link_restored");
+  EXPECT_EQ(events_[1].code, "link_cut_ended");
   EXPECT_EQ(events_[1].text, "data link of UAV3 is up");
 }
 
