@@ -32,7 +32,7 @@ function ModeCard({ store, status }: { store: Store; status: FormationStatus }) 
         <span class="mode-name">{kModes[status.mode] ?? `Mode ${status.mode}`}</span>
         <span class="mode-of">
           {name}
-          {shape !== "" && `, ${shape}`}
+          {shape !== "" && shape !== name.toLowerCase() && `, ${shape}`}
         </span>
       </p>
       {status.mode_text !== "" && <p class="mode-text">{status.mode_text}</p>}

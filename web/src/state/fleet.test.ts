@@ -30,6 +30,15 @@ test("between frames a UAV is carried along its velocity, for two seconds at mos
   expect(fleet.placeAt(0, 9_000).up_m).toBeCloseTo(1002.5, 3); // the screen's clock is behind the frame's
 });
 
+test("frames whose time stands still are no news", () => {
+  const fleet = new Fleet();
+  fleet.take(motionFrame([7], { utime: 5e6 }), 1000);
+  fleet.take(motionFrame([7], { utime: 5e6 }), 2000);
+  expect(fleet.arrival_ms).toBe(1000);
+  fleet.take(motionFrame([7], { utime: 6e6 }), 3000);
+  expect(fleet.arrival_ms).toBe(3000);
+});
+
 test("a lost UAV is where the monitor thinks it is", () => {
   const fleet = new Fleet();
   fleet.take(motionFrame([6, 7], { speed_m_s: f32(50, 50) }), 0);

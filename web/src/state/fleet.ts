@@ -22,7 +22,7 @@ export interface Place {
 export class Fleet {
   motion: MotionFrame | null = null;
   status: StatusFrame | null = null;
-  /** When the frames came (performance.now). */
+  /** When news came (performance.now). */
   arrival_ms = 0;
   status_arrival_ms = 0;
   private motion_rows: ReadonlyMap<number, number> = kEmpty;
@@ -31,8 +31,9 @@ export class Fleet {
   take(frame: Frame, now_ms: number): void {
     if (frame.kind === "motion") {
       this.motion_rows = rowsOf(frame.id, this.motion?.id, this.motion_rows);
+      // A frame with the time of the one before says that the bus is silent, not that it was heard.
+      if (frame.utime !== this.motion?.utime) this.arrival_ms = now_ms;
       this.motion = frame;
-      this.arrival_ms = now_ms;
     } else {
       this.status_rows = rowsOf(frame.id, this.status?.id, this.status_rows);
       this.status = frame;

@@ -1,0 +1,218 @@
+/** A person at the page: sees the fleet, cuts a link, sees what the station does about it, restores it. One flight, in order. */
+import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { Screen } from "./screen";
+import { Station } from "./station";
+
+const station = new Station();
+let screen: Screen;
+
+const until = (what: () => Promise<void> | void, timeout: number) =>
+  vi.waitFor(what, { timeout, interval: 100 });
+const altitude_m = async (id: number) => (await screen.uav(id)).altitude_m;
+
+/** Tests build on one another: what the nodes said tells why one failed. */
+function explain(): void {
+  onTestFailed(() => {
+    process.stderr.write(`${station.log()}\n`);
+  });
+}
+
+beforeAll(async () => {
+  station.start("web-bridge");
+  await station.answers();
+  screen = await Screen.open();
+});
+
+afterAll(async () => {
+  await screen?.close();
+  await station.stopAll();
+});
+
+test("with no fleet on the bus, the page says what it waits for and how to start it", async () => {
+  explain();
+  const card = screen.page.locator(".first-run");
+  await card.waitFor();
+  expect(await card.innerText()).toContain("Waiting for a fleet");
+  expect(await card.innerText()).toContain("scripts/run");
+  expect(await screen.text(".pill")).toBe("No fleet yet");
+  await screen.picture("first-run", 1280, 720, "dark");
+});
+
+test("three UAVs come, fill the table and move on the map", async () => {
+  explain();
+  station.start("fleet-simulator", "formation-controller", "collision-monitor");
+  await until(async () => expect(await screen.page.locator("tbody tr").count()).toBe(3), 15_000);
+  await until(async () => expect(await screen.text(".pill")).toBe("Live"), 15_000);
+  expect(await screen.page.locator(".first-run").count()).toBe(0);
+
+  const before = new Map<number, { x: number; y: number }>();
+  for (const id of [1, 2, 3]) {
+    await until(async () => {
+      const seen = await screen.symbol(id);
+      expect(seen).not.toBeNull();
+      if (seen !== null) before.set(id, seen);
+    }, 10_000);
+  }
+  for (const id of [1, 2, 3]) {
+    // They fly north, up the screen.
+    await until(async () => {
+      expect((before.get(id)?.y ?? 0) - ((await screen.symbol(id))?.y ?? Infinity)).toBeGreaterThan(4);
+    }, 10_000);
+  }
+});
+
+test("the table tells link, slot, neighbour and motion of each, and the card the mode", async () => {
+  explain();
+  await until(async () => {
+    for (const id of [1, 2, 3]) {
+      const uav = await screen.uav(id);
+      expect(uav).toMatchObject({
+        level: "Clear",
+        downlink: "up",
+        uplink: "up",
+      });
+      expect(Math.abs(uav.forward_error_m)).toBeLessThan(10);
+      expect(Math.abs(uav.altitude_m - 1000)).toBeLessThan(3);
+      expect(Math.abs(uav.speed_m_s - 50)).toBeLessThan(3);
+    }
+    expect(await screen.text(".mode-name")).toBe("In formation");
+  }, 60_000);
+  expect(await screen.row(1).innerText()).toContain("000"); // course: north
+});
+
+test("a payload is switched from the page, and shown on when telemetry says so", async () => {
+  explain();
+  await screen.payload("UAV2").click();
+  await until(async () => expect((await screen.uav(2)).payload_on).toBe(true), 5_000);
+  expect((await screen.uav(1)).payload_on).toBe(false);
+  await screen.payload("UAV2").press("Space");
+  await until(async () => expect((await screen.uav(2)).payload_on).toBe(false), 5_000);
+});
+
+test("after a cut from the page the chain breaks and the others climb 200 m", async () => {
+  explain();
+  await screen.page.keyboard.press("f");
+  await screen.button("Cut the link of UAV3").click();
+  // Found within 5 s of the cut, always; another second to get to the screen.
+  await until(async () => {
+    // Nobody can tell whether it still hears the station.
+    expect(await screen.uav(3)).toMatchObject({ downlink: "lost", uplink: "not judged" });
+  }, 6_000);
+  await until(async () => {
+    expect(await screen.text(".mode-card")).toMatch(/UAV3/);
+    expect(await screen.text(".events")).toMatch(/UAV3/);
+  }, 3_000);
+  expect(await screen.text(".summary")).toContain("1 link lost");
+  await until(async () => {
+    expect(await altitude_m(1)).toBeGreaterThan(1190);
+    expect(await altitude_m(2)).toBeGreaterThan(1190);
+  }, 45_000);
+  expect(Math.abs((await altitude_m(3)) - 1000)).toBeLessThan(5);
+  await screen.picture("link-lost", 1280, 720, "dark");
+  await screen.picture("link-lost", 1920, 1080, "light");
+});
+
+test("after the link is restored all are in formation again, where they were", async () => {
+  explain();
+  await screen.button("Restore the link of UAV3").click();
+  await until(async () => {
+    expect(await screen.uav(3)).toMatchObject({ downlink: "up", uplink: "up" });
+  }, 6_000);
+  await until(async () => {
+    for (const id of [1, 2, 3]) expect(Math.abs((await altitude_m(id)) - 1000)).toBeLessThan(3);
+    expect(await screen.text(".mode-name")).toBe("In formation");
+  }, 90_000);
+});
+
+test("the page fits its window in every size and theme, without scrolling", async () => {
+  explain();
+  for (const theme of ["dark", "light"] as const) {
+    for (const [width, height] of [
+      [1280, 720],
+      [1920, 1080],
+    ] as const) {
+      await screen.picture("in-formation", width, height, theme);
+      const overflow = await screen.page.evaluate(() => {
+        const root = document.documentElement;
+        const table = document.querySelector(".table-scroll");
+        return {
+          page: [root.scrollWidth - innerWidth, root.scrollHeight - innerHeight],
+          table:
+            table === null
+              ? null
+              : [table.scrollWidth - table.clientWidth, table.scrollHeight - table.clientHeight],
+        };
+      });
+      expect(overflow).toEqual({ page: [0, 0], table: [0, 0] });
+    }
+  }
+  await screen.page.setViewportSize({ width: 1280, height: 720 });
+});
+
+test("every control is reached by keyboard, and the focus is seen", async () => {
+  explain();
+  await screen.page.evaluate(() => {
+    (document.activeElement as HTMLElement | null)?.blur();
+  });
+  const reached = new Set<string>();
+  for (let i = 0; i < 40; i += 1) {
+    await screen.page.keyboard.press("Tab");
+    const focus = await screen.page.evaluate(() => {
+      const element = document.activeElement;
+      if (element === null || element === document.body) return null;
+      const shown = element instanceof HTMLInputElement ? (element.nextElementSibling ?? element) : element;
+      return {
+        name:
+          element.getAttribute("aria-label") ?? element.getAttribute("title") ?? element.textContent ?? "",
+        outlined: getComputedStyle(shown).outlineStyle !== "none",
+      };
+    });
+    if (focus === null) continue;
+    expect(focus.outlined, focus.name).toBe(true);
+    reached.add(focus.name);
+  }
+  for (const name of [
+    "Fit the map to the fleet",
+    "Follow the fleet",
+    "Select UAV1",
+    "Payload of UAV1",
+    "Cut the link of UAV3",
+    "Restore the link of UAV3",
+  ]) {
+    expect([...reached]).toContain(name);
+  }
+});
+
+test("nothing was complained of, and no request left this machine", () => {
+  expect(screen.complaints).toEqual([]);
+  expect(screen.strangers).toEqual([]);
+});
+
+test("when the bridge goes the page says so, greys out, and comes back by itself", async () => {
+  explain();
+  await station.stop("web-bridge");
+  await until(async () => {
+    expect(await screen.text(".pill")).toBe("Reconnecting…");
+    expect(await screen.text(".banner")).toContain("The fleet is shown as it was at");
+    expect(await screen.page.locator(".app.stale").count()).toBe(1);
+  }, 5_000);
+  await screen.picture("reconnecting", 1280, 720, "dark");
+  station.start("web-bridge");
+  await until(async () => {
+    expect(await screen.text(".pill")).toBe("Live");
+    expect(await screen.page.locator(".app.stale").count()).toBe(0);
+  }, 15_000);
+});
+
+test("a command that nobody obeys is refused beside its button", async () => {
+  explain();
+  await station.stop("fleet-simulator");
+  await screen.button("Cut the link of UAV1").click();
+  const refusal = screen.page.getByRole("alert");
+  await refusal.waitFor({ timeout: 6_000 });
+  expect(await refusal.innerText()).toMatch(/nobody answered CMD_LINK/);
+  await until(async () => expect(await screen.text(".banner")).toContain("fleet-simulator"), 8_000);
+  await screen.picture("refused", 1280, 720, "light");
+  await screen.button("Dismiss").click();
+  await refusal.waitFor({ state: "detached" });
+});

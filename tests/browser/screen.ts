@@ -1,0 +1,151 @@
+/** The page as a person sees and uses it. */
+import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { fileURLToPath } from "node:url";
+import { chromium, type BrowserContext, type Locator, type Page } from "playwright-core";
+import { kPageUrl } from "./station";
+
+const kResults = fileURLToPath(new URL("test-results/", import.meta.url));
+const kFlags = [
+  "--headless",
+  "--no-sandbox",
+  "--disable-gpu",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+  "--no-first-run",
+];
+
+export interface Uav {
+  level: string;
+  downlink: string;
+  uplink: string;
+  forward_error_m: number;
+  altitude_m: number;
+  speed_m_s: number;
+  payload_on: boolean;
+}
+
+export interface Centre {
+  x: number;
+  y: number;
+}
+
+export class Screen {
+  /** Errors on the console and unhandled rejections. */
+  readonly complaints: string[] = [];
+  /** Requests to other hosts than the bridge. */
+  readonly strangers: string[] = [];
+
+  private constructor(
+    private readonly context: BrowserContext,
+    private readonly profile: string,
+    readonly page: Page,
+  ) {
+    page.on("console", (message) => {
+      if (message.type() === "error" || message.type() === "warning") this.complaints.push(message.text());
+    });
+    page.on("pageerror", (error) => this.complaints.push(String(error)));
+    context.on("request", (request) => {
+      if (!request.url().startsWith(kPageUrl) && !request.url().startsWith("data:"))
+        this.strangers.push(request.url());
+    });
+  }
+
+  static async open(): Promise<Screen> {
+    mkdirSync(kResults, { recursive: true });
+    const profile = mkdtempSync(`${tmpdir()}/skein-browser-`);
+    const context = await chromium.launchPersistentContext(profile, {
+      executablePath: process.env["CHROMIUM"] ?? "/usr/bin/chromium",
+      args: kFlags,
+      viewport: { width: 1280, height: 720 },
+      colorScheme: "dark",
+    });
+    const page = context.pages()[0] ?? (await context.newPage());
+    const screen = new Screen(context, profile, page);
+    await page.goto(kPageUrl);
+    return screen;
+  }
+
+  async close(): Promise<void> {
+    await this.context.close();
+    rmSync(this.profile, { recursive: true, force: true });
+  }
+
+  row(id: number): Locator {
+    return this.page.locator(`tr[data-id="${id}"]`);
+  }
+
+  /** A row of the table, read like a person reads it. */
+  uav(id: number): Promise<Uav> {
+    return this.row(id).evaluate((row) => {
+      const number = (selector: string) =>
+        Number((row.querySelector(selector)?.textContent ?? "").replace("\u2212", "-").replace("—", "NaN"));
+      const label = (selector: string) => row.querySelector(selector)?.getAttribute("aria-label") ?? "";
+      return {
+        level: label(".lamp"),
+        downlink: label('.chain[aria-label^="Downlink"]').replace("Downlink ", ""),
+        uplink: label('.chain[aria-label^="Uplink"]').replace("Uplink ", ""),
+        forward_error_m: number(".error"),
+        altitude_m: number(".altitude"),
+        speed_m_s: number(".speed"),
+        payload_on: row.querySelector('[role="switch"]')?.getAttribute("aria-checked") === "true",
+      };
+    });
+  }
+
+  button(name: string): Locator {
+    return this.page.getByRole("button", { name, exact: true });
+  }
+
+  payload(callsign: string): Locator {
+    return this.page.getByRole("switch", {
+      name: `Payload of ${callsign}`,
+      exact: true,
+    });
+  }
+
+  text(selector: string): Promise<string> {
+    return this.page.locator(selector).innerText();
+  }
+
+  /** Where on the map a UAV's symbol is: the middle of the pixels in its identity colour. Null: it isn't to be seen. */
+  symbol(id: number): Promise<Centre | null> {
+    return this.page.evaluate((identity) => {
+      const drawn = document.querySelector<HTMLCanvasElement>("canvas.fleet");
+      if (drawn === null) return null;
+      const canvas = new OffscreenCanvas(drawn.width, drawn.height);
+      const context = canvas.getContext("2d", { willReadFrequently: true });
+      if (context === null) return null;
+      context.drawImage(drawn, 0, 0);
+      const hex = getComputedStyle(document.documentElement)
+        .getPropertyValue(`--identity-${identity}`)
+        .trim();
+      const [red, green, blue] = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+      const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+      let [count, x, y] = [0, 0, 0];
+      for (let i = 0; i < data.length; i += 4) {
+        // Only the symbol is opaque: trail, vector and slot are drawn thinner or paler.
+        if (data[i] !== red || data[i + 1] !== green || data[i + 2] !== blue || data[i + 3] !== 255) continue;
+        count += 1;
+        x += (i / 4) % canvas.width;
+        y += Math.floor(i / 4 / canvas.width);
+      }
+      return count < 20 ? null : { x: x / count, y: y / count };
+    }, id);
+  }
+
+  async picture(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
+    await this.page.setViewportSize({ width, height });
+    await this.page.emulateMedia({ colorScheme: theme });
+    await this.page.waitForFunction((wanted) => document.documentElement.dataset["theme"] === wanted, theme);
+    await this.page.keyboard.press("f");
+    // Two frames of the screen: the new size and theme are drawn.
+    await this.page.evaluate(
+      () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
+    );
+    await this.page.screenshot({
+      path: `${kResults}${name}-${width}x${height}-${theme}.png`,
+    });
+  }
+}

@@ -1,0 +1,88 @@
+/** The ground station's processes, real ones, on a bus and a port that nobody else uses. */
+import { spawn, type ChildProcess } from "node:child_process";
+import { once } from "node:events";
+import { fileURLToPath } from "node:url";
+
+const kHere = fileURLToPath(new URL(".", import.meta.url));
+const kBin = process.env["SKEIN_BIN"] ?? `${kHere}../../build/bin`;
+const kLcmUrl = process.env["SKEIN_TEST_LCM_URL"] ?? "udpm://239.255.76.67:7707?ttl=0";
+const kPort = process.env["SKEIN_TEST_PORT"] ?? "8107";
+const kScenario = `${kHere}scenario.json`;
+const kWeb = `${kHere}../../web/dist`;
+
+const kArguments = {
+  "web-bridge": ["--port", kPort, "--web", kWeb],
+  "fleet-simulator": ["--scenario", kScenario],
+  "formation-controller": ["--scenario", kScenario],
+  "collision-monitor": ["--scenario", kScenario],
+};
+
+export type NodeName = keyof typeof kArguments;
+export const kPageUrl = `http://127.0.0.1:${kPort}/`;
+
+interface Running {
+  process: ChildProcess;
+  /** The end of what it said, for when a test fails. */
+  output: string;
+}
+
+export class Station {
+  private readonly running = new Map<NodeName, Running>();
+
+  start(...names: NodeName[]): void {
+    for (const name of names) {
+      const child = spawn(`${kBin}/${name}`, [...kArguments[name], "--lcm-url", kLcmUrl], {
+        stdio: ["ignore", "pipe", "pipe"],
+      });
+      const running: Running = { process: child, output: "" };
+      const listen = (chunk: Buffer) => {
+        running.output = (running.output + chunk.toString()).slice(-4000);
+      };
+      child.stdout.on("data", listen);
+      child.stderr.on("data", listen);
+      child.on("error", (error) => {
+        running.output += String(error);
+      });
+      this.running.set(name, running);
+    }
+  }
+
+  /** Ends processes as an operator would, and waits until they are gone. */
+  async stop(...names: NodeName[]): Promise<void> {
+    await Promise.all(
+      names.map(async (name) => {
+        const child = this.running.get(name)?.process;
+        this.running.delete(name);
+        if (child === undefined || child.pid === undefined || child.exitCode !== null) return;
+        const ended = once(child, "exit");
+        child.kill("SIGTERM");
+        const stubborn = setTimeout(() => child.kill("SIGKILL"), 5000);
+        await ended;
+        clearTimeout(stubborn);
+      }),
+    );
+  }
+
+  stopAll(): Promise<void> {
+    return this.stop(...this.running.keys());
+  }
+
+  /** What the processes said last. */
+  log(): string {
+    return [...this.running].map(([name, { output }]) => `--- ${name}\n${output}`).join("\n");
+  }
+
+  /** Waits until the bridge serves the page. */
+  async answers(timeout_ms = 20_000): Promise<void> {
+    const deadline = Date.now() + timeout_ms;
+    for (;;) {
+      const ok = await fetch(kPageUrl).then(
+        (response) => response.ok,
+        () => false,
+      );
+      if (ok) return;
+      if (Date.now() > deadline) throw new Error(`web-bridge doesn't answer at ${kPageUrl}\n${this.log()}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
+}

@@ -1,0 +1,19 @@
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vitest/config";
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+
+/** The browser tests lie in tests/browser; what they import is installed here. */
+export default defineConfig({
+  root: here("../tests/browser"),
+  resolve: { alias: { "playwright-core": here("node_modules/playwright-core/index.mjs") } },
+  server: { fs: { allow: [here("..")] } },
+  test: {
+    include: ["*.test.ts"],
+    environment: "node",
+    testTimeout: 120_000,
+    hookTimeout: 60_000,
+    // The tests are the steps of one flight: after a failure the next ones can only fail too.
+    bail: 1,
+  },
+});
