@@ -1,10 +1,10 @@
 /** The texts beside symbols. Places are chosen a few times a second; in between, labels move with their symbols. */
-import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import { duration, fixed } from "../units/format";
 import type { Colours } from "./colours";
 import type { Sight } from "./fleet_layer";
 import { placeLabels, type LabelRequest, type PlacedLabel } from "./labels";
+import { kSymbolRadius_px } from "./shapes";
 import type { Pixel } from "./view";
 
 const kFont = "'Inter Variable', sans-serif";
@@ -12,9 +12,28 @@ const kNameFont = `600 12px ${kFont}`;
 const kDataFont = `500 11px ${kFont}`;
 const kPadding_px = 4;
 const kLine_px = 14;
+const kGap_px = 3;
 const kReplace_ms = 250;
 /** More labels than this are a wall of text: the most important have them. */
 const kMostLabels = 120;
+
+/** The virtual leader of a formation, as it is drawn. */
+export interface LeaderSight extends Pixel {
+  formation_id: number;
+  course_rad: number;
+}
+
+/** What is to be written beside a symbol. */
+interface Caption extends Pixel {
+  /** The UAV's, or minus the formation's for its leader. */
+  id: number;
+  name: string;
+  /** Second line, "": none. */
+  data: string;
+  course_rad: number;
+  clearance_px: number;
+  weight: number;
+}
 
 export class FleetLabels {
   private placed: ReadonlyMap<number, PlacedLabel> = new Map();
@@ -22,93 +41,92 @@ export class FleetLabels {
 
   constructor(private readonly store: Store) {}
 
-  draw(context: CanvasRenderingContext2D, sights: readonly Sight[], colours: Colours, now_ms: number): void {
+  draw(
+    context: CanvasRenderingContext2D,
+    sights: readonly Sight[],
+    leaders: readonly LeaderSight[],
+    colours: Colours,
+    now_ms: number,
+  ): void {
+    const captions = [
+      ...sights.map((sight) => this.captionOf(sight, now_ms)),
+      ...leaders.map((leader) => this.captionOfLeader(leader)),
+    ];
     if (now_ms - this.placed_ms > kReplace_ms) {
       this.placed_ms = now_ms;
-      const requests = this.mostImportant(sights).map((sight) => this.request(context, sight, now_ms));
+      const wanted = [...captions].sort((a, b) => b.weight - a.weight || a.id - b.id).slice(0, kMostLabels);
+      const requests = wanted.map((caption) => request(context, caption));
       this.placed = new Map(placeLabels(requests, this.placed).map((label) => [label.id, label]));
     }
     context.textBaseline = "top";
-    for (const sight of sights) {
-      const label = this.placed.get(sight.id);
-      if (label !== undefined) this.drawOne(context, sight, label, colours, now_ms);
+    for (const caption of captions) {
+      const label = this.placed.get(caption.id);
+      if (label !== undefined) write(context, caption, label, colours);
     }
     context.textBaseline = "alphabetic";
   }
 
-  drawLeader(context: CanvasRenderingContext2D, at: Pixel, status: FormationStatus, colours: Colours): void {
-    const name = this.store.formations.peek().get(status.formation_id)?.name ?? "";
-    context.font = kDataFont;
-    context.fillStyle = colours.map_text;
-    context.fillText(
-      `Leader of ${name === "" ? `formation ${status.formation_id}` : name}`,
-      at.x + 14,
-      at.y + 4,
-    );
-  }
-
-  private mostImportant(sights: readonly Sight[]): Sight[] {
-    const selected = this.store.selected_id.peek();
-    const weight = (sight: Sight) =>
-      (sight.id === selected ? 10 : 0) + sight.level * 2 + (sight.lost ? 3 : 0);
-    return [...sights].sort((a, b) => weight(b) - weight(a) || a.id - b.id).slice(0, kMostLabels);
-  }
-
-  private data(sight: Sight, now_ms: number): string {
-    const motion = this.store.fleet.motion;
-    if (motion === null) return "";
-    if (sight.lost) return `lost ${duration(this.store.fleet.downlinkAge_s(sight.id, now_ms))}`;
-    return `${fixed(sight.place.up_m)} m ENU  ${fixed(motion.speed_m_s[sight.row])} m/s`;
-  }
-
-  private request(context: CanvasRenderingContext2D, sight: Sight, now_ms: number): LabelRequest {
-    context.font = kNameFont;
-    const name_width = context.measureText(this.store.callsign(sight.id)).width;
-    context.font = kDataFont;
-    const course_rad = this.store.fleet.motion?.course_rad[sight.row] ?? 0;
-    const data_width = context.measureText(this.data(sight, now_ms).replace(/\d/g, "0")).width;
+  private captionOf(sight: Sight, now_ms: number): Caption {
+    const selected = sight.id === this.store.selected_id.peek();
     return {
-      id: sight.id,
-      x: sight.x,
-      y: sight.y,
-      heading_x: Math.cos(course_rad),
-      heading_y: -Math.sin(course_rad),
-      clearance: sight.clearance_px + 3,
-      width: Math.max(name_width, data_width) + 2 * kPadding_px,
-      height: 2 * kLine_px + 2 * kPadding_px - 2,
-      compact_width: name_width + 2 * kPadding_px,
-      compact_height: kLine_px + 2 * kPadding_px - 2,
+      ...sight,
+      name: this.store.callsign(sight.id),
+      data: sight.lost
+        ? `lost ${duration(this.store.fleet.downlinkAge_s(sight.id, now_ms))}`
+        : `${fixed(sight.place.up_m)} m ENU  ${fixed(sight.speed_m_s)} m/s`,
+      weight: (selected ? 10 : 0) + sight.level * 2 + (sight.lost ? 3 : 0),
     };
   }
 
-  private drawOne(
-    context: CanvasRenderingContext2D,
-    sight: Sight,
-    label: PlacedLabel,
-    colours: Colours,
-    now_ms: number,
-  ): void {
-    const name = this.store.callsign(sight.id);
-    const data = this.data(sight, now_ms);
-    const x = Math.round(sight.x + label.dx);
-    const y = Math.round(sight.y + label.dy);
-    context.font = kNameFont;
-    let width = context.measureText(name).width;
-    if (!label.compact) {
-      context.font = kDataFont;
-      width = Math.max(width, context.measureText(data).width);
-    }
-    context.fillStyle = colours.tag;
-    const height = (label.compact ? 1 : 2) * kLine_px + 2 * kPadding_px - 2;
-    context.beginPath();
-    context.roundRect(x, y, width + 2 * kPadding_px, height, 3);
-    context.fill();
-    context.font = kNameFont;
-    context.fillStyle = colours.text;
-    context.fillText(name, x + kPadding_px, y + kPadding_px);
-    if (label.compact) return;
-    context.font = kDataFont;
-    context.fillStyle = colours.muted;
-    context.fillText(data, x + kPadding_px, y + kPadding_px + kLine_px);
+  private captionOfLeader(leader: LeaderSight): Caption {
+    const name = this.store.formations.peek().get(leader.formation_id)?.name ?? "";
+    return {
+      ...leader,
+      id: -leader.formation_id,
+      name: `Leader of ${name === "" ? `formation ${leader.formation_id}` : name}`,
+      data: "",
+      clearance_px: kSymbolRadius_px,
+      weight: -1,
+    };
   }
+}
+
+function request(context: CanvasRenderingContext2D, caption: Caption): LabelRequest {
+  context.font = kNameFont;
+  const name_width = context.measureText(caption.name).width;
+  context.font = kDataFont;
+  // Room for the widest digits: the label doesn't grow and shrink with the numbers.
+  const data_width = context.measureText(caption.data.replace(/\d/g, "0")).width;
+  const compact_height = kLine_px + 2 * kPadding_px - 2;
+  return {
+    id: caption.id,
+    x: caption.x,
+    y: caption.y,
+    heading_x: Math.cos(caption.course_rad),
+    heading_y: -Math.sin(caption.course_rad),
+    clearance: caption.clearance_px + kGap_px,
+    width: Math.max(name_width, data_width) + 2 * kPadding_px,
+    height: caption.data === "" ? compact_height : compact_height + kLine_px,
+    compact_width: name_width + 2 * kPadding_px,
+    compact_height,
+  };
+}
+
+function write(
+  context: CanvasRenderingContext2D,
+  caption: Caption,
+  label: PlacedLabel,
+  colours: Colours,
+): void {
+  const x = Math.round(caption.x + label.dx);
+  const y = Math.round(caption.y + label.dy);
+  context.fillStyle = colours.tag;
+  context.fillRect(x, y, label.width, label.height);
+  context.font = kNameFont;
+  context.fillStyle = caption.id > 0 ? colours.text : colours.muted;
+  context.fillText(caption.name, x + kPadding_px, y + kPadding_px);
+  if (label.compact || caption.data === "") return;
+  context.font = kDataFont;
+  context.fillStyle = colours.muted;
+  context.fillText(caption.data, x + kPadding_px, y + kPadding_px + kLine_px);
 }

@@ -5,7 +5,7 @@ import type { Place } from "../state/fleet";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 import { identityOf, type Colours } from "./colours";
-import { FleetLabels } from "./fleet_labels";
+import { FleetLabels, type LeaderSight } from "./fleet_labels";
 import { Overlay } from "./overlay";
 import { at, kAircraft, kFrameRadius_px, kLeader, kLevelFrames, kSlot, kSymbolRadius_px } from "./shapes";
 import type { Trails } from "./trails";
@@ -19,13 +19,13 @@ const kPick_px = 22;
 /** A UAV as it is drawn in this frame. */
 export interface Sight extends Pixel {
   id: number;
-  /** Row in the motion frame. */
-  row: number;
   place: Place;
   level: number;
   lost: boolean;
   uncertainty_m: number;
   clearance_px: number;
+  speed_m_s: number;
+  course_rad: number;
 }
 
 export class FleetLayer {
@@ -67,12 +67,13 @@ export class FleetLayer {
     const view = viewOf(this.map);
     this.sights = this.look(view, frame, now_ms);
     const by_id = new Map(this.sights.map((sight) => [sight.id, sight]));
-    for (const status of this.store.statuses.peek().values()) {
-      this.drawFormation(context, view, frame, status, by_id, colours);
-    }
+    const statuses = [...this.store.statuses.peek().values()];
+    const leaders = statuses.map((status) =>
+      this.drawFormation(context, view, frame, status, by_id, colours, now_ms),
+    );
     for (const sight of this.sights) this.drawVector(context, view, frame, sight, colours);
     for (const sight of this.sights) this.drawSymbol(context, view, frame, sight, colours);
-    this.labels.draw(context, this.sights, colours, now_ms);
+    this.labels.draw(context, this.sights, leaders, colours, now_ms);
   }
 
   private look(view: View, frame: LocalFrame, now_ms: number): Sight[] {
@@ -89,12 +90,13 @@ export class FleetLayer {
       sights.push({
         ...at_px,
         id,
-        row,
         place,
         level,
         lost: fleet.isLost(id),
         uncertainty_m: status !== null && status_row >= 0 ? status.horizontal_uncertainty_m[status_row] : 0,
         clearance_px: level > 0 ? kFrameRadius_px : kSymbolRadius_px,
+        speed_m_s: motion.speed_m_s[row],
+        course_rad: motion.course_rad[row],
       });
     }
     return sights;
@@ -111,8 +113,9 @@ export class FleetLayer {
     status: FormationStatus,
     sights: ReadonlyMap<number, Sight>,
     colours: Colours,
-  ): void {
-    const utime = this.store.utimeAt(performance.now()) ?? status.utime;
+    now_ms: number,
+  ): LeaderSight {
+    const utime = this.store.utimeAt(now_ms) ?? status.utime;
     const ahead_s = Math.min(Math.max((utime - status.utime) / 1e6, 0), kLongestStatus_s);
     const east_m = status.leader_speed_m_s * Math.cos(status.leader_course_rad) * ahead_s;
     const north_m = status.leader_speed_m_s * Math.sin(status.leader_course_rad) * ahead_s;
@@ -153,7 +156,7 @@ export class FleetLayer {
     at(context, leader.x, leader.y, Math.PI / 2 - status.leader_course_rad, () => {
       context.stroke(kLeader);
     });
-    this.labels.drawLeader(context, leader, status, colours);
+    return { ...leader, formation_id: status.formation_id, course_rad: status.leader_course_rad };
   }
 
   /** Where the UAV will be in half a minute, should it fly straight on. */
@@ -164,8 +167,6 @@ export class FleetLayer {
     sight: Sight,
     colours: Colours,
   ): void {
-    const motion = this.store.fleet.motion;
-    if (motion === null) return;
     context.strokeStyle = this.colourOf(sight.id, colours);
     const newest = sight.lost ? null : this.trails.newest(sight.id, view);
     if (newest !== null) {
@@ -173,8 +174,8 @@ export class FleetLayer {
       context.lineWidth = 2;
       line(context, newest, sight);
     }
-    const way_m = motion.speed_m_s[sight.row] * kVector_s;
-    const course_rad = motion.course_rad[sight.row];
+    const way_m = sight.speed_m_s * kVector_s;
+    const { course_rad } = sight;
     const end = pixelOf(
       view,
       frame,
@@ -200,8 +201,6 @@ export class FleetLayer {
     sight: Sight,
     colours: Colours,
   ): void {
-    const motion = this.store.fleet.motion;
-    if (motion === null) return;
     const colour = this.colourOf(sight.id, colours);
     if (sight.lost && sight.uncertainty_m > 0) {
       const radius = sight.uncertainty_m * pixelsPerMetre(view, frame.origin.latitude_deg);
@@ -227,7 +226,7 @@ export class FleetLayer {
       }
       if (this.store.selected_id.peek() === sight.id) brackets(context, colours.text);
     });
-    at(context, sight.x, sight.y, Math.PI / 2 - motion.course_rad[sight.row], () => {
+    at(context, sight.x, sight.y, Math.PI / 2 - sight.course_rad, () => {
       context.lineJoin = "round";
       context.strokeStyle = sight.lost ? colour : colours.map_halo;
       context.lineWidth = sight.lost ? 1.5 : 3;

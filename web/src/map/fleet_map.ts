@@ -14,6 +14,8 @@ import { Trails } from "./trails";
 import { pixelsPerMetre, viewOf } from "./view";
 
 const kGroundInterval_ms = 500;
+/** A fleet on a map that stands still moves by a pixel or so in this time. */
+const kFleetInterval_ms = 30;
 const kWaitForSlots_ms = 1500;
 
 /** What the scale shows. */
@@ -37,6 +39,7 @@ export class FleetMap {
   private frame: LocalFrame | null = null;
   private start_utime = 0;
   private ground_drawn_ms = -Infinity;
+  private fleet_drawn_ms = -Infinity;
   private ground_old = true;
   /** The map is to be fitted; done when the fleet and its slots are known, or the fleet alone for a while. */
   private to_fit = true;
@@ -148,13 +151,17 @@ export class FleetMap {
       if (this.to_fit) this.fitNow(this.frame, now_ms);
       else if (this.following.peek()) this.camera.follow(this.frame, now_ms);
     }
+    const moved = this.ground_old;
     if (this.ground_old || now_ms - this.ground_drawn_ms > kGroundInterval_ms) {
       this.ground_old = false;
       this.ground_drawn_ms = now_ms;
       this.ground.draw(this.frame, this.colours);
       this.measure();
     }
-    this.fleet.draw(this.frame, this.colours, now_ms);
+    if (moved || now_ms - this.fleet_drawn_ms > kFleetInterval_ms) {
+      this.fleet_drawn_ms = now_ms;
+      this.fleet.draw(this.frame, this.colours, now_ms);
+    }
   };
 
   private fitNow(frame: LocalFrame, now_ms: number): void {

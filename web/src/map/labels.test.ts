@@ -19,9 +19,7 @@ function request(id: number, x: number, y: number): LabelRequest {
 function box(label: PlacedLabel, r: LabelRequest) {
   const left = r.x + label.dx;
   const top = r.y + label.dy;
-  const width = label.compact ? r.compact_width : r.width;
-  const height = label.compact ? r.compact_height : r.height;
-  return { left, top, right: left + width, bottom: top + height };
+  return { left, top, right: left + label.width, bottom: top + label.height };
 }
 
 function overlap(a: ReturnType<typeof box>, b: ReturnType<typeof box>): number {

@@ -22,6 +22,8 @@ export interface PlacedLabel {
   /** From the symbol's middle to the label's top left corner [px]. */
   dx: number;
   dy: number;
+  width: number;
+  height: number;
   /** Only the first line fits. */
   compact: boolean;
   /** Which of the places around the symbol it took. */
@@ -72,6 +74,8 @@ export function placeLabels(
         id: request.id,
         dx: best.box.left - request.x,
         dy: best.box.top - request.y,
+        width: best.box.right - best.box.left,
+        height: best.box.bottom - best.box.top,
         compact,
         side: best.side,
       });

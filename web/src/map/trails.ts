@@ -5,6 +5,8 @@ import { mercatorX, mercatorY, xOf, yOf, type View } from "./view";
 
 const kInterval_us = 1_000_000;
 const kPoints = 240;
+/** Points nearer than this to one another look like one [px]. */
+const kLeastStep_px = 4;
 
 interface Ring {
   points: Float64Array;
@@ -55,9 +57,14 @@ export class Trails {
         const from = oldest + Math.floor((length * part) / 3);
         const to = Math.min(ring.written - 1, oldest + Math.floor((length * (part + 1)) / 3));
         context.beginPath();
+        let [last_x, last_y] = [Infinity, Infinity];
         for (let i = from; i <= to; i += 1) {
           const slot = i % kPoints;
-          context.lineTo(xOf(view, ring.points[2 * slot]), yOf(view, ring.points[2 * slot + 1]));
+          const x = xOf(view, ring.points[2 * slot]);
+          const y = yOf(view, ring.points[2 * slot + 1]);
+          if (i < to && Math.abs(x - last_x) + Math.abs(y - last_y) < kLeastStep_px) continue;
+          context.lineTo(x, y);
+          [last_x, last_y] = [x, y];
         }
         context.stroke();
       }

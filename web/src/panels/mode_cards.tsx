@@ -25,20 +25,26 @@ export function ModeCards({ store }: { store: Store }) {
 function ModeCard({ store, status }: { store: Store; status: FormationStatus }) {
   const formation = store.formations.value.get(status.formation_id);
   const shape = formation === undefined ? "" : (kShapes[formation.shape] ?? formation.shape);
+  const mode = kModes[status.mode] ?? `Mode ${status.mode}`;
   const name = formation?.name ? formation.name : `Formation ${status.formation_id}`;
   return (
     <li class="panel mode-card" data-mode={status.mode}>
       <p class="mode-head">
-        <span class="mode-name">{kModes[status.mode] ?? `Mode ${status.mode}`}</span>
+        <span class="mode-name">{mode}</span>
         <span class="mode-of">
           {name}
           {shape !== "" && shape !== name.toLowerCase() && `, ${shape}`}
         </span>
       </p>
-      {status.mode_text !== "" && <p class="mode-text">{status.mode_text}</p>}
+      {!sameWords(status.mode_text, mode) && <p class="mode-text">{status.mode_text}</p>}
       <Since store={store} status={status} />
     </li>
   );
+}
+
+/** A text that only repeats the mode's name says nothing. */
+function sameWords(text: string, mode: string): boolean {
+  return text === "" || text.toLowerCase() === mode.toLowerCase();
 }
 
 function Since({ store, status }: { store: Store; status: FormationStatus }) {

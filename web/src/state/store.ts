@@ -1,5 +1,5 @@
 /** What the page knows: small things as signals, bulk telemetry in `fleet`. Views only read; `takeText` and `takeFrame` write. */
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import type { ConnectionState } from "../link/connection";
 import type { Frame } from "../link/frames";
 import type {
@@ -34,6 +34,10 @@ export class Store {
   readonly selected_id = signal<number | null>(null);
   /** The time (performance.now), a few times a second: what goes with time or shows `fleet` reads it, and is drawn again. */
   readonly now_ms = signal(performance.now());
+
+  private readonly callsigns = computed(
+    () => new Map(this.roster.value?.vehicles.map((vehicle) => [vehicle.id, vehicle.callsign])),
+  );
 
   constructor(private readonly onAck: (ack: Ack) => void) {}
 
@@ -101,7 +105,7 @@ export class Store {
   }
 
   callsign(id: number): string {
-    return this.roster.value?.vehicles.find((vehicle) => vehicle.id === id)?.callsign ?? `UAV ${id}`;
+    return this.callsigns.value.get(id) ?? `UAV ${id}`;
   }
 
   /** A bridge says hello first, then everything it knows: what it no longer knows is gone. */
