@@ -118,7 +118,8 @@ std::optional<VirtualLeader> FormationControllerNode::LeaderOverFleet(const std:
 }
 
 void FormationControllerNode::SaveState() {
-  if (options_.state_file.empty() || tick_utime_ == 0) return;
+  // Without a roster nothing has been taken up yet, and the file still holds what is to be.
+  if (options_.state_file.empty() || start_utime_ == 0 || tick_utime_ == 0) return;
   ControllerState state;
   state.start_utime = start_utime_;
   for (const auto& [id, flight] : flights_) {
