@@ -253,6 +253,13 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   bus::Bus other(transport.lcm, "formation-controller", executor);
   bus::Bus station(transport.lcm, "test", executor);
   FormationControllerNode restarted(other, options_);
+  fleet_state_t state{};
+  state.utime = executor.Now();
+  state.session_id = 1;
+  state.tick = tick_;
+  state.chunk_count = 1;
+  bus::PublishChunks(station, bus::channel::kFleetState, state);
+  executor.RunFor(2 * bus::kSecond);  // the roster comes late; the file must not be overwritten until then
   fleet_roster_t roster{};
   roster.utime = executor.Now();
   roster.session_id = 1;
