@@ -21,10 +21,11 @@ struct Traffic {
 
 /// What limits the choice of an altitude offset.
 struct AirspaceLimits {
-  double clearance_m = 120;   ///< least height between the main body and a separated member
-  double highest_m = 1e9;     ///< highest offset that keeps every member below the ceiling
-  double lowest_m = -1e9;     ///< lowest offset that keeps every member clear of the ground
-  ProximityLimits strangers;  ///< cylinder of other traffic
+  double clearance_m = 120;    ///< least height between the main body and a separated member
+  double highest_m = 1e9;      ///< highest offset that keeps every member below the ceiling
+  double lowest_m = -1e9;      ///< lowest offset that keeps every member clear of the ground
+  double climb_rate_m_s = 10;  ///< that every member can fly beside the path's own climb, > 0
+  ProximityLimits strangers;   ///< cylinder of other traffic
 };
 
 /// The offset that the main body of a formation takes while members are separated: 200 m above them, or less,

@@ -43,7 +43,11 @@ std::vector<FlightEvent> Avoidance::Update(const std::vector<MemberObservation>&
 
   for (const MemberObservation& seen : members) UpdateRole(seen, members_.at(seen.id), limits, events);
   ChooseBodyTarget(members, strangers, limits, events);
+  AltitudeRampLimits ramp_limits;
+  ramp_limits.rate_m_s = limits.climb_rate_m_s;
+  body_.SetLimits(ramp_limits);
   for (auto& [id, member] : members_) {
+    member.ramp.SetLimits(ramp_limits);
     if (member.role == Role::kFlying) member.ramp.SetTarget(body_.target_m());
     member.ramp.Advance(step_s);
   }

@@ -112,6 +112,22 @@ bool FormationFlight::ReadyToMerge(int id, const Member& member, const VehicleVi
                              std::move(others), config_.proximity);
 }
 
+double FormationFlight::ClimbRate(const FleetPicture& fleet) const {
+  constexpr double kFastest = 10;  // [m/s]
+  constexpr double kSlowest = 2;   // [m/s]
+  constexpr double kShare = 0.8;   // of the steepest climb; the rest is left to control
+  const PathPoint here = leader_.path().At(leader_.arc_m());
+  double rate = kFastest;
+  for (const auto& [id, member] : members_) {
+    const auto view = fleet.find(id);
+    if (view == fleet.end() || !view->second.state) continue;
+    const double steepest =
+        view->second.state->speed_m_s * std::sin(kShare * view->second.model.envelope.max_climb_rad);
+    rate = std::min(rate, steepest - std::abs(here.speed_m_s * here.up_slope));
+  }
+  return std::max(rate, kSlowest);
+}
+
 AirspaceLimits FormationFlight::Surroundings(const FleetPicture& fleet,
                                              std::vector<Traffic>& strangers) const {
   AirspaceLimits limits;
@@ -124,6 +140,7 @@ AirspaceLimits FormationFlight::Surroundings(const FleetPicture& fleet,
     if (members_.contains(id)) continue;
     strangers.push_back({Position(now), Velocity(now)});
   }
+  limits.climb_rate_m_s = ClimbRate(fleet);
   const double planned = leader_.path().At(leader_.arc_m()).up_m;
   for (const auto& [id, member] : members_) {
     limits.highest_m = std::min(limits.highest_m, airspace_.ceiling_m - planned - member.slot.up_m);

@@ -88,6 +88,7 @@ class FormationFlight {
   Member MakeMember(const Slot& slot) const;
   PathLimits LimitsFor(const FleetPicture& fleet, const std::vector<Slot>& slots, double share = 0.6) const;
   MemberObservation Observe(int id, const Member& member, const VehicleView& view, double arc_m) const;
+  double ClimbRate(const FleetPicture& fleet) const;
   AirspaceLimits Surroundings(const FleetPicture& fleet, std::vector<Traffic>& strangers) const;
   bool ReadyToMerge(int id, const Member& member, const VehicleView& view) const;
   LawOutput Fly(Member& member, const VehicleView& view, const AltitudeOffset& offset);

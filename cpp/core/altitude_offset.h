@@ -34,6 +34,8 @@ class AltitudeRamp {
   double RemainingTime() const;
 
   const AltitudeRampLimits& limits() const { return limits_; }
+  /// Holds from the next step on; a rate above it is brought down at the acceleration limit.
+  void SetLimits(const AltitudeRampLimits& limits) { limits_ = limits; }
 
  private:
   AltitudeRampLimits limits_;

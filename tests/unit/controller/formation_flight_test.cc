@@ -200,6 +200,23 @@ TEST(FormationFlight, TellsWhatItDoesWhenALinkIsLostAndComesBack) {
   EXPECT_GT(bench.LeastSeparation(), 1);
 }
 
+TEST(FormationFlight, ClimbsOutOfTheWayNoFasterThanASlowUavCan) {
+  // 32 m/s at 80% of 0.35 rad is 8.8 m/s.
+  FlightBench bench(Triangle(), Path::Straight({0, 0}, kPi / 2, 1000, 32));
+  bench.Fly(5);
+  bench.Cut(3);
+  double fastest = 0;
+  double worst = 0;
+  for (int tick = 0; tick < 1200; ++tick) {
+    bench.Tick();
+    fastest = std::max(fastest, bench.flight.Status(0).avoidance_rate_m_s);
+    worst = std::max(worst, bench.Error(1).norm());
+  }
+  EXPECT_DOUBLE_EQ(bench.flight.Status(0).avoidance_up_m, 200);
+  EXPECT_LE(fastest, 9);
+  EXPECT_LE(worst, 3);
+}
+
 TEST(FormationFlight, FliesAloneAndWithNobodyHeard) {
   config::FormationConfig one = Triangle();
   one.slots = {{1, {-1000, 0, 0}}};
