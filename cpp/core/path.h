@@ -136,23 +136,29 @@ struct PathResult {
   std::string reason;
 };
 
-/// Through waypoints. A closed path needs 3 waypoints, an open one 2. Refused, with the waypoint's number
-/// (from 1): two identical waypoints in a row, a corner that turns back, legs too short for the arcs, a
-/// radius, climb or change of speed that a slot cannot fly, a loop shorter than the formation.
+/// Through waypoints. A closed path needs 3 waypoints and is rounded at the first one, too: it begins behind
+/// that turn. An open one needs 2 and ends in a loiter circle. Refused, with the number of the waypoint or
+/// leg (from 1) and what would help: two identical waypoints in a row, a corner that turns back, legs too
+/// short for the arcs, a radius, climb or change of speed that a slot cannot fly, a loop shorter than the
+/// formation.
 PathResult PlanWaypoints(const std::vector<Waypoint>& waypoints, bool closed, const PathLimits& limits);
 
-/// From a pose along legs. Refused like PlanWaypoints, with the leg's number.
+/// From a pose along legs, then straight on. Refused like PlanWaypoints, with the leg's number.
 PathResult PlanLegs(const Eigen::Vector2d& start, double course_rad, double up_m, double speed_m_s,
                     const std::vector<PathLeg>& legs, const PathLimits& limits);
 
-/// From `arc_m` on `current` onto `next`, continuous in position, course, curvature, altitude and speed. The
-/// path behind arc_m stays (at least `keep_behind_m` of it), arc lengths go on counting. Joins `next` at its
-/// start or, for a resumed path, at `next_arc_m`.
+/// From `arc_m` on `current` onto `next`, continuous in position, course, curvature, altitude and speed with
+/// their slopes. What the slots are on stays: the path behind arc_m (at least `keep_behind_m` of it, and to
+/// the hindmost slot) and on to the foremost slot, if that is ahead of the leader. Arc lengths go on
+/// counting. Joins `next` at `next_arc_m` (its start, or where a held path is resumed) or the next point
+/// ahead where it is straight. `next` is within the limits already, it is not checked again.
 PathResult Join(const Path& current, double arc_m, const Path& next, double next_arc_m, double keep_behind_m,
                 const PathLimits& limits);
 
-/// From `arc_m` on `current` into the smallest circle that all can fly, for good. Turns the way that
-/// curvature already has, else left.
+/// From `arc_m` on `current` into the smallest circle that all can fly, for good; what the slots are on stays
+/// as with Join. Turns the way that curvature already has, else left. Levels off from a climb; changes speed
+/// where that of `current` has no circle of reasonable size. Refused only when no speed is within the limits
+/// of all slots.
 PathResult Loiter(const Path& current, double arc_m, double keep_behind_m, const PathLimits& limits);
 
 /// Radius of that circle; none when no speed is within the limits of all slots.
