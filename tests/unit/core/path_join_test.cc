@@ -24,8 +24,7 @@ Path Square(double east_m, double size_m, double up_m, double speed_m_s) {
                                            {east_m + size_m, size_m, up_m, speed_m_s},
                                            {east_m, size_m, up_m + 50, speed_m_s}},
                                           true, TriangleLimits());
-  EXPECT_TRUE(result.path) << result.reason;
-  return *result.path;
+  return result.path.value();
 }
 
 /// Two points of two paths are the same place, flown in the same way.

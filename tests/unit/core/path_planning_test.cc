@@ -99,6 +99,27 @@ TEST(PlanLegs, RefusesWithTheNumberOfTheLegAndWhatWouldHelp) {
   EXPECT_NE(reason({{.length_m = std::nan("")}}).find("not finite"), std::string::npos);
 }
 
+TEST(PlanLegs, TheLastSlotsTurnAtTheSpeedThatTheLeaderHasByThen) {
+  // 4 km behind the leader, slots are still in the turn when it flies 70 m/s already: 70 x (1 + 500 / 1600)
+  // is too fast.
+  const PathLimits limits =
+      LimitsOf({}, {{-500, 500, 0}, {-500, -500, 0}, {-4000, 500, 0}, {-4000, -500, 0}});
+  const auto plan = [&](double radius_m) {
+    return PlanLegs({0, 0}, 0, 1000, 50,
+                    {{.length_m = 1000},
+                     {.turn_rad = 1.5, .turn_radius_m = radius_m},
+                     {.length_m = 3000, .speed_m_s = 70}},
+                    limits);
+  };
+  const PathResult tight = plan(1600);
+  EXPECT_FALSE(tight.path);
+  EXPECT_NE(tight.reason.find("leg 2: a turn radius of 1,600 m is too tight"), std::string::npos)
+      << tight.reason;
+  const PathResult wide = plan(0);
+  ASSERT_TRUE(wide.path) << wide.reason;
+  ExpectSlotsWithin(*wide.path, limits, 0, wide.path->end_arc_m() + 5000);
+}
+
 TEST(PlanLegs, NoLegsIsStraightOn) {
   const PathResult result = PlanLegs({1, 2}, 0, 1000, 50, {}, TurnLimits());
   ASSERT_TRUE(result.path);
