@@ -32,6 +32,8 @@ constexpr seconds kHeaderTime{20};
 constexpr seconds kBodyTime{20};
 // The largest file takes 30 s over 2 Mbit/s.
 constexpr seconds kResponseTime{60};
+// Only a fault of ours takes longer: commands are given up after 2 s.
+constexpr seconds kAnswerTime{10};
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1u << 20;
 
@@ -176,13 +178,15 @@ asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request) {
     asio::steady_timer answered;
     std::optional<HttpResponse> response;
   };
-  const auto pending = std::make_shared<Pending>(
-      Pending{asio::steady_timer(context_, asio::steady_timer::time_point::max()), std::nullopt});
+  const auto pending =
+      std::make_shared<Pending>(Pending{asio::steady_timer(context_, kAnswerTime), std::nullopt});
   router_.Answer(request, [pending](HttpResponse response) {
     pending->response = std::move(response);
     pending->answered.cancel();
   });
-  while (!pending->response) co_await pending->answered.async_wait(kAwait);
+  if (!pending->response) co_await pending->answered.async_wait(kAwait);
+  if (!pending->response)
+    co_return router_.Plain(http::status::internal_server_error, "The bridge found no answer.");
   co_return std::move(*pending->response);
 }
 
