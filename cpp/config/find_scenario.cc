@@ -29,6 +29,8 @@ fs::path FindScenario(const std::string& name) {
   const fs::path given(name);
   std::error_code error;
   if (fs::exists(given, error) && !fs::is_directory(given, error)) return given;
+  if (fs::is_directory(given, error) && given.has_parent_path())
+    throw ConfigError(name + ": is a folder, not a scenario file");
   if (given.has_parent_path()) throw ConfigError(name + ": there is no such file");
   std::string searched;
   for (const fs::path& folder : Folders()) {

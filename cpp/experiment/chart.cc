@@ -182,7 +182,7 @@ std::string Draw(const Chart& chart, const Box& box) {
   const double bottom = plot.top + plot.height;
 
   std::string svg = "<g>\n";
-  const auto x_ticks = TickValues(x.least, x.most, static_cast<int>(plot.width / 75));
+  const auto x_ticks = TickValues(x.least, x.most, static_cast<int>(plot.width / 60));
   const auto y_ticks = TickValues(y.least, y.most, static_cast<int>(plot.height / 32));
   for (const double value : x_ticks) {
     svg += Line(scale.X(value), plot.top, scale.X(value), bottom, fmt::format("stroke=\"{}\"", kGrid));

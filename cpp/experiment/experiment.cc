@@ -191,6 +191,7 @@ Summary RunExperiment(const config::Scenario& scenario, const ExperimentOptions&
     const Tick& tick = experiment.Step();
     summary.Add(tick);
     if (options.on_tick) options.on_tick(tick);
+    if (options.stop && options.stop()) break;
   }
   return summary.Finish();
 }

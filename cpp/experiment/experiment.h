@@ -19,6 +19,7 @@ struct ExperimentOptions {
   std::uint64_t seed = 1;                    ///< of lossy and jittered links
   std::filesystem::path log;                 ///< LCM log of everything on the bus; "" for none
   std::function<void(const Tick&)> on_tick;  ///< called after each control step
+  std::function<bool()> stop;                ///< asked after each control step; true ends the flight early
   /// Called before the first control step with the bus of an operator, to send CMD_* (at once, or later by
   /// bus.executor().At) and to hear what the nodes say.
   std::function<void(bus::Bus&)> on_start;

@@ -2,8 +2,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -32,6 +36,9 @@ struct Arguments {
   std::string log_level = "error";
 };
 
+// Set by SIGINT and SIGTERM: the flight ends, its files are finished.
+volatile std::sig_atomic_t interrupted = 0;
+
 struct Run {
   config::Scenario scenario;
   std::string label;  ///< what tells it from the other runs, "" when it is the only one
@@ -59,6 +66,15 @@ fs::path FileOf(const Run& run, const fs::path& file) {
   std::string label = run.label;
   std::replace(label.begin(), label.end(), ' ', '-');
   return file.parent_path() / (file.stem().string() + "-" + label + file.extension().string());
+}
+
+/// Better told before the flight than after it. Leaves an empty file where there was none.
+void CheckWritable(const fs::path& file) {
+  if (file.empty()) return;
+  errno = 0;
+  if (!std::ofstream(file, std::ios::app)) {
+    throw config::ConfigError(file.string() + ": cannot be written: " + std::strerror(errno));
+  }
 }
 
 /// On a terminal, for runs that take a while.
@@ -103,12 +119,13 @@ FlightRecord Fly(const Run& run, const Arguments& arguments) {
     if (!arguments.plot.empty()) recorder.Add(tick);
     progress.Show(tick.t_s);
   };
+  options.stop = [] { return interrupted != 0; };
   const auto start = std::chrono::steady_clock::now();
   const Summary summary = RunExperiment(run.scenario, options);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
   if (csv) csv->Finish();
   fmt::print("{}  Real time: {:.2f} s, {:.0f} times as fast as the flight\n", ToText(summary), took.count(),
-             duration_s / took.count());
+             summary.duration_s / took.count());
   std::fflush(stdout);
   return recorder.record();
 }
@@ -161,20 +178,31 @@ int Main(int argc, char** argv) {
   std::vector<Run> runs;
   try {
     runs = Runs(arguments);
+    CheckWritable(arguments.plot);
+    for (const Run& run : runs) {
+      CheckWritable(FileOf(run, arguments.csv));
+      CheckWritable(FileOf(run, arguments.log));
+    }
   } catch (const config::ConfigError& error) {
     fmt::print(stderr, "flight-experiment: {}\n", error.what());
     return bus::kExitUsage;
   }
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
   try {
     std::vector<FlightRecord> records;
-    for (const Run& run : runs) records.push_back(Fly(run, arguments));
+    for (const Run& run : runs) {
+      records.push_back(Fly(run, arguments));
+      if (interrupted != 0) break;
+    }
     const std::string title = arguments.scenarios.size() == 1 ? runs.front().scenario.name : "";
     if (!arguments.plot.empty()) WritePlot(arguments.plot, title, records);
   } catch (const std::exception& error) {
     fmt::print(stderr, "flight-experiment: {}\n", error.what());
     return bus::kExitFailed;
   }
-  return bus::kExitGood;
+  if (interrupted == 0) return bus::kExitGood;
+  fmt::print(stderr, "flight-experiment: interrupted; what was written ends there\n");
+  return bus::kExitFailed;
 }
 
 }  // namespace

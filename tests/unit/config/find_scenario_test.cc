@@ -33,6 +33,7 @@ TEST(FindScenario, NamesTheFoldersThatItSearched) {
 TEST(FindScenario, RefusesAPathThatLeadsNowhere) {
   EXPECT_THROW(FindScenario("nowhere/triangle.json"), ConfigError);
   EXPECT_THROW(FindScenario(""), ConfigError);
+  EXPECT_THROW(FindScenario("/"), ConfigError);
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace skein::experiment {
 namespace {
 
 std::string Written(const std::vector<Tick>& ticks) {
-  const auto file = std::filesystem::path(testing::TempDir()) / ("skein-" + std::to_string(getpid()) + ".csv");
+  const auto file =
+      std::filesystem::path(testing::TempDir()) / ("skein-" + std::to_string(getpid()) + ".csv");
   CsvWriter writer(file);
   for (const Tick& tick : ticks) writer.Add(tick);
   writer.Finish();
@@ -20,10 +21,11 @@ std::string Written(const std::vector<Tick>& ticks) {
 }
 
 TEST(CsvWriter, StartsWithTheColumnsThatArePromised) {
-  EXPECT_EQ(Written({}).rfind("t_s,vehicle_id,east_m,north_m,up_m,speed_m_s,course_rad,climb_rad,slot_forward_m,"
-                              "slot_left_m,slot_up_m,link,level,",
-                              0),
-            0u);
+  EXPECT_EQ(
+      Written({}).rfind("t_s,vehicle_id,east_m,north_m,up_m,speed_m_s,course_rad,climb_rad,slot_forward_m,"
+                        "slot_left_m,slot_up_m,link,level,",
+                        0),
+      0u);
 }
 
 TEST(CsvWriter, WritesARowPerVehicle) {
@@ -32,7 +34,8 @@ TEST(CsvWriter, WritesARowPerVehicle) {
   tick.utime = 13'000'000;
   VehicleTick one;
   one.id = 3;
-  one.truth = {.east_m = 1, .north_m = -2.5, .up_m = 1000, .speed_m_s = 50.25, .course_rad = 1.5, .climb_rad = -0.1};
+  one.truth = {
+      .east_m = 1, .north_m = -2.5, .up_m = 1000, .speed_m_s = 50.25, .course_rad = 1.5, .climb_rad = -0.1};
   VehicleTick two = one;
   two.id = 4;
   two.formation_id = 1;
@@ -50,7 +53,8 @@ TEST(CsvWriter, WritesARowPerVehicle) {
   EXPECT_EQ(Written({tick}),
             CsvWriter::Header() +
                 "\n12.35,3,1.000,-2.500,1000.000,50.2500,1.500000,-0.100000,,,,up,0,0,,,,,,,,\n"
-                "12.35,4,1.000,-2.500,1000.000,50.2500,1.500000,-0.100000,10.500,0.000,0.000,late,2,1,11.500,0.000,0.000,"
+                "12.35,4,1.000,-2.500,1000.000,50.2500,1.500000,-0.100000,10.500,0.000,0.000,late,2,1,11.500,"
+                "0.000,0.000,"
                 "1,0.200,55.0000,0.000000,0.000000\n");
 }
 

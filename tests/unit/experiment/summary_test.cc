@@ -29,14 +29,16 @@ Tick TickAt(std::int64_t number) {
   tick.t_s = 0.05 * static_cast<double>(number);
   tick.vehicles.resize(2);
   tick.vehicles[0].id = 1;
-  tick.vehicles[0].truth = {.east_m = 50 * tick.t_s, .north_m = 0, .up_m = 0, .speed_m_s = 50, .course_rad = 0, .climb_rad = 0};
+  tick.vehicles[0].truth = {
+      .east_m = 50 * tick.t_s, .north_m = 0, .up_m = 0, .speed_m_s = 50, .course_rad = 0, .climb_rad = 0};
   tick.vehicles[0].formation_id = 1;
   slot_status_t slot{};
   slot.vehicle_id = 1;
   slot.slot_east_m = 50 * tick.t_s;
   tick.vehicles[0].slot = slot;
   tick.vehicles[1].id = 2;
-  tick.vehicles[1].truth = {.east_m = 0, .north_m = 1000, .up_m = 30, .speed_m_s = 50, .course_rad = 0, .climb_rad = 0};
+  tick.vehicles[1].truth = {
+      .east_m = 0, .north_m = 1000, .up_m = 30, .speed_m_s = 50, .course_rad = 0, .climb_rad = 0};
   tick.formations[1].leader_speed_m_s = 50;
   return tick;
 }
@@ -54,9 +56,9 @@ Summary Fly(int ticks, const std::function<void(Tick&)>& change) {
 TEST(Summary, SettlesWhenAnErrorStaysWithinTenMetres) {
   const Summary summary = Fly(200, [](Tick& tick) {
     slot_status_t& slot = *tick.vehicles[0].slot;
-    slot.forward_error_m = 100 - 20 * tick.t_s;      // 10 m at 4.5 s, -10 m at 5.5 s, never again
-    slot.left_error_m = tick.t_s < 3 ? -50 : -9.5;   // from 3 s on
-    slot.up_error_m = 5;                             // from the start
+    slot.forward_error_m = 100 - 20 * tick.t_s;     // 10 m at 4.5 s, -10 m at 5.5 s, never again
+    slot.left_error_m = tick.t_s < 3 ? -50 : -9.5;  // from 3 s on
+    slot.up_error_m = 5;                            // from the start
   });
   EXPECT_FALSE(summary.vehicles[0].settling.forward_s);
   EXPECT_DOUBLE_EQ(*summary.vehicles[0].settling.left_s, 3);
@@ -145,10 +147,13 @@ TEST(SummaryText, SaysWhatHappened) {
   });
   const std::string text = ToText(summary);
   EXPECT_EQ(text.substr(0, text.find('\n')), "Two, control skein: 2 UAVs, 19.95 s");
-  EXPECT_NE(text.find("UAV1 cut both ways at 2.00 s, found lost 4.00 s later; restored at 9.00 s, seen up 3.00 s later"),
-            std::string::npos)
+  EXPECT_NE(
+      text.find(
+          "UAV1 cut both ways at 2.00 s, found lost 4.00 s later; restored at 9.00 s, seen up 3.00 s later"),
+      std::string::npos)
       << text;
-  EXPECT_NE(text.find("UAV1 - UAV2: 1000.4 m (1000.0 m horizontally, 30.0 m vertically) at 0.00 s"), std::string::npos)
+  EXPECT_NE(text.find("UAV1 - UAV2: 1000.4 m (1000.0 m horizontally, 30.0 m vertically) at 0.00 s"),
+            std::string::npos)
       << text;
 }
 
