@@ -83,25 +83,25 @@ test("the table tells link, slot, neighbour and motion of each, and the card the
 test("a payload is switched from the page, and shown on when telemetry says so", async () => {
   explain();
   await screen.payload("UAV2").click();
-  await until(async () => expect((await screen.uav(2)).payload_on).toBe(true), 5_000);
+  await until(async () => expect((await screen.uav(2)).payload_on).toBe(true), 10_000);
   expect((await screen.uav(1)).payload_on).toBe(false);
   await screen.payload("UAV2").press("Space");
-  await until(async () => expect((await screen.uav(2)).payload_on).toBe(false), 5_000);
+  await until(async () => expect((await screen.uav(2)).payload_on).toBe(false), 10_000);
 });
 
 test("after a cut from the page the chain breaks and the others climb 200 m", async () => {
   explain();
   await screen.page.keyboard.press("f");
   await screen.button("Cut the link of UAV3").click();
-  // Found within 5 s of the cut, always; another second to get to the screen.
-  await until(async () => {
-    // Nobody can tell whether it still hears the station.
-    expect(await screen.uav(3)).toMatchObject({ downlink: "lost", uplink: "not judged" });
-  }, 6_000);
+  await until(async () => expect((await screen.uav(3)).downlink).toBe("lost"), 15_000);
+  // Found within 5 s of the cut, whatever this machine is busy with; times on the screen are whole seconds.
+  expect(
+    (await screen.eventTime_s("link_lost")) - (await screen.eventTime_s("link_cut")),
+  ).toBeLessThanOrEqual(5);
   await until(async () => {
     expect(await screen.text(".mode-card")).toMatch(/UAV3/);
     expect(await screen.text(".events")).toMatch(/UAV3/);
-  }, 3_000);
+  }, 10_000);
   expect(await screen.text(".summary")).toContain("1 link lost");
   await until(async () => {
     expect(await altitude_m(1)).toBeGreaterThan(1190);
@@ -117,7 +117,7 @@ test("after the link is restored all are in formation again, where they were", a
   await screen.button("Restore the link of UAV3").click();
   await until(async () => {
     expect(await screen.uav(3)).toMatchObject({ downlink: "up", uplink: "up" });
-  }, 6_000);
+  }, 15_000);
   await until(async () => {
     for (const id of [1, 2, 3]) expect(Math.abs((await altitude_m(id)) - 1000)).toBeLessThan(3);
     expect(await screen.text(".mode-name")).toBe("In formation");
@@ -195,7 +195,7 @@ test("when the bridge goes the page says so, greys out, and comes back by itself
     expect(await screen.text(".pill")).toBe("Reconnecting…");
     expect(await screen.text(".banner")).toContain("The fleet is shown as it was at");
     expect(await screen.page.locator(".app.stale").count()).toBe(1);
-  }, 5_000);
+  }, 10_000);
   await screen.picture("reconnecting", 1280, 720, "dark");
   station.start("web-bridge");
   await until(async () => {
@@ -209,9 +209,9 @@ test("a command that nobody obeys is refused beside its button", async () => {
   await station.stop("fleet-simulator");
   await screen.button("Cut the link of UAV1").click();
   const refusal = screen.page.getByRole("alert");
-  await refusal.waitFor({ timeout: 6_000 });
+  await refusal.waitFor({ timeout: 10_000 });
   expect(await refusal.innerText()).toMatch(/nobody answered CMD_LINK/);
-  await until(async () => expect(await screen.text(".banner")).toContain("fleet-simulator"), 8_000);
+  await until(async () => expect(await screen.text(".banner")).toContain("fleet-simulator"), 10_000);
   await screen.picture("refused", 1280, 720, "light");
   await screen.button("Dismiss").click();
   await refusal.waitFor({ state: "detached" });

@@ -94,6 +94,16 @@ export class Screen {
     });
   }
 
+  /** When the newest event of a kind happened, as the list says [s since the start]. */
+  async eventTime_s(code: string): Promise<number> {
+    const time = this.page.locator(`.events li[title*=": ${code},"] time`).first();
+    const [hours = NaN, minutes = NaN, seconds = NaN] = (await time.innerText())
+      .replace("T+ ", "")
+      .split(":")
+      .map(Number);
+    return 3600 * hours + 60 * minutes + seconds;
+  }
+
   button(name: string): Locator {
     return this.page.getByRole("button", { name, exact: true });
   }

@@ -12,8 +12,6 @@ import type { Trails } from "./trails";
 import { pixelOf, pixelsPerMetre, viewOf, type Pixel, type View } from "./view";
 
 const kVector_s = 30;
-/** A status comes five times a second; it is not carried on for longer than this. */
-const kLongestStatus_s = 1;
 const kPick_px = 22;
 
 /** A UAV as it is drawn in this frame. */
@@ -115,8 +113,7 @@ export class FleetLayer {
     colours: Colours,
     now_ms: number,
   ): LeaderSight {
-    const utime = this.store.utimeAt(now_ms) ?? status.utime;
-    const ahead_s = Math.min(Math.max((utime - status.utime) / 1e6, 0), kLongestStatus_s);
+    const ahead_s = this.store.fleet.since_s(status.utime, now_ms);
     const east_m = status.leader_speed_m_s * Math.cos(status.leader_course_rad) * ahead_s;
     const north_m = status.leader_speed_m_s * Math.sin(status.leader_course_rad) * ahead_s;
 

@@ -16,6 +16,8 @@ import { pixelsPerMetre, viewOf } from "./view";
 const kGroundInterval_ms = 500;
 /** A fleet on a map that stands still moves by a pixel or so in this time. */
 const kFleetInterval_ms = 30;
+/** Where drawing is slow (no GPU, a busy machine), it leaves this part of the time to everything else. */
+const kIdlePart = 0.5;
 const kWaitForSlots_ms = 1500;
 
 /** What the scale shows. */
@@ -40,6 +42,8 @@ export class FleetMap {
   private start_utime = 0;
   private ground_drawn_ms = -Infinity;
   private fleet_drawn_ms = -Infinity;
+  private draw_cost_ms = 0;
+  private drew = false;
   private ground_old = true;
   /** The map is to be fitted; done when the fleet and its slots are known, or the fleet alone for a while. */
   private to_fit = true;
@@ -151,14 +155,17 @@ export class FleetMap {
       if (this.to_fit) this.fitNow(this.frame, now_ms);
       else if (this.following.peek()) this.camera.follow(this.frame, now_ms);
     }
-    const moved = this.ground_old;
+    // What a drawn frame costs shows in when the next one comes.
+    if (this.drew) this.draw_cost_ms = now_ms - this.fleet_drawn_ms;
+    const interval_ms = Math.max(kFleetInterval_ms, this.draw_cost_ms / (1 - kIdlePart));
+    this.drew = this.ground_old || now_ms - this.fleet_drawn_ms >= interval_ms;
     if (this.ground_old || now_ms - this.ground_drawn_ms > kGroundInterval_ms) {
       this.ground_old = false;
       this.ground_drawn_ms = now_ms;
       this.ground.draw(this.frame, this.colours);
       this.measure();
     }
-    if (moved || now_ms - this.fleet_drawn_ms > kFleetInterval_ms) {
+    if (this.drew) {
       this.fleet_drawn_ms = now_ms;
       this.fleet.draw(this.frame, this.colours, now_ms);
     }

@@ -6,7 +6,7 @@ import type { Frame, MotionFrame, StatusFrame } from "../link/frames";
 
 const kEmpty = new Map<number, number>();
 
-/** After this long without news, a position is no longer carried forward. */
+/** After this long without news, what moves is no longer carried forward. */
 const kLongestExtrapolation_s = 2;
 
 export const kLinkUp = 0;
@@ -64,6 +64,13 @@ export class Fleet {
     return row >= 0 && this.status !== null && this.status.downlink[row] === kLinkLost;
   }
 
+  /** For how long what was so at `utime` is to be carried forward [s]. */
+  since_s(utime: number, now_ms: number): number {
+    const before_frame_s = ((this.motion?.utime ?? utime) - utime) / 1e6;
+    const since_s = before_frame_s + Math.max(0, now_ms - this.arrival_ms) / 1000;
+    return Math.min(Math.max(since_s, 0), kLongestExtrapolation_s);
+  }
+
   /** Time since a UAV was last heard [s], which goes on between frames; -1: never, or not known. */
   downlinkAge_s(id: number, now_ms: number): number {
     return this.carriedOn(this.status?.downlink_age_s[this.statusRow(id)], now_ms);
@@ -94,8 +101,7 @@ export class Fleet {
         up_m: this.status.estimated_up_m[status_row],
       };
     }
-    const since_frame_s = Math.max(0, (now_ms - this.arrival_ms) / 1000);
-    const ahead_s = Math.min(motion.age_s[row] + since_frame_s, kLongestExtrapolation_s);
+    const ahead_s = this.since_s(motion.utime - motion.age_s[row] * 1e6, now_ms);
     const level_m = motion.speed_m_s[row] * Math.cos(motion.climb_rad[row]) * ahead_s;
     return {
       east_m: motion.east_m[row] + level_m * Math.cos(motion.course_rad[row]),
