@@ -1,0 +1,135 @@
+#include "cli/command_line.h"
+
+#include "bus/transport.h"
+
+namespace skein::cli {
+namespace {
+
+constexpr const char* kVehiclesHelp = "UAVs, by id or callsign";
+
+CLI::App* Group(CLI::App& app, const char* name, const char* description) {
+  CLI::App* group = app.add_subcommand(name, description);
+  group->require_subcommand(1);
+  return group;
+}
+
+CLI::Option* AddId(CLI::App* command, int& id) {
+  return command->add_option("id", id, "Number of the formation")->check(CLI::PositiveNumber);
+}
+
+}  // namespace
+
+CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for the answer.", "skein") {
+  app_.set_version_flag("--version", "skein " SKEIN_VERSION);
+  app_.add_option("--lcm-url", lcm_url_,
+                  "LCM URL (default: LCM_DEFAULT_URL, or " + std::string(bus::kDefaultUrl) + ")");
+  app_.require_subcommand(1);
+  app_.fallthrough();
+  app_.footer(
+      "Exit codes: 0 accepted, 1 refused or not answered, 2 wrong usage or a file that cannot be used.");
+  AddLink();
+  AddFormation();
+  AddPath();
+  AddPayload();
+  AddStatus();
+}
+
+void CommandLine::AddLink() {
+  CLI::App* group = Group(app_, "link", "Data links of simulated UAVs");
+  const auto add_options = [this](CLI::App* command) {
+    command->add_option("vehicle", link_.vehicles, kVehiclesHelp)->required();
+    command->add_option("--at", link_.at_s, "When, in seconds of the scenario (default: now)")
+        ->check(CLI::NonNegativeNumber);
+    auto* up = command->add_flag("--up-only", link_.up_only, "The uplink alone (station to UAV)");
+    command->add_flag("--down-only", link_.down_only, "The downlink alone (UAV to station)")->excludes(up);
+  };
+  CLI::App* cut = group->add_subcommand("cut", "Cut a link");
+  add_options(cut);
+  cut->add_option("--for", link_.for_s, "For so many seconds (default: until restored)")
+      ->check(CLI::PositiveNumber);
+  cut->add_flag("--frozen", link_.frozen, "Repeat the last state instead of falling silent");
+  cut->callback(
+      [this] { command_ = [this](Station& station, std::ostream& out) { CutLink(station, link_, out); }; });
+  CLI::App* restore = group->add_subcommand("restore", "Restore a link");
+  add_options(restore);
+  restore->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { RestoreLink(station, link_, out); };
+  });
+}
+
+void CommandLine::AddFormation() {
+  CLI::App* group = Group(app_, "formation", "Formations");
+  CLI::App* show = group->add_subcommand("show", "All formations, or one as JSON that `apply` takes");
+  AddId(show, id_);
+  show->add_flag("--json", json_, "As JSON, also when there is only one and no id is given");
+  show->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { ShowFormation(station, id_, json_, out); };
+  });
+  CLI::App* apply = group->add_subcommand("apply", "Fly the formation of a JSON file");
+  apply->add_option("file", file_, "Named as a formation of a scenario")
+      ->required()
+      ->check(CLI::ExistingFile);
+  apply->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { ApplyFormation(station, file_, out); };
+  });
+  const auto add = [&](const char* name, const char* description, void (*run)(Station&, int, std::ostream&)) {
+    CLI::App* command = group->add_subcommand(name, description);
+    AddId(command, id_)->required();
+    command->callback([this, run] {
+      command_ = [this, run](Station& station, std::ostream& out) { run(station, id_, out); };
+    });
+  };
+  add("hold", "Loiter where the formation is", HoldFormation);
+  add("resume", "Go on along the path", ResumeFormation);
+  add("remove", "Dissolve the formation; its UAVs hold course, speed and altitude", RemoveFormation);
+}
+
+void CommandLine::AddPath() {
+  CLI::App* group = Group(app_, "path", "Paths of formations");
+  CLI::App* show = group->add_subcommand("show", "Print a path as GeoJSON that `upload` takes");
+  AddId(show, id_);
+  show->callback(
+      [this] { command_ = [this](Station& station, std::ostream& out) { ShowPath(station, id_, out); }; });
+  CLI::App* upload = group->add_subcommand("upload", "Fly the path of a GeoJSON file");
+  upload
+      ->add_option("file", path_.file,
+                   "A LineString or Points, altitude as third coordinate; properties altitude_m, speed_m_s, "
+                   "turn_radius_m")
+      ->required()
+      ->check(CLI::ExistingFile);
+  upload->add_option("--formation", path_.formation_id, "Number of the formation (default: the only one)")
+      ->check(CLI::PositiveNumber);
+  upload->add_flag("--closed", path_.closed, "Fly it round and round");
+  upload->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { UploadPath(station, path_, out); };
+  });
+  CLI::App* clear = group->add_subcommand("clear", "Take the path away: straight on");
+  AddId(clear, id_)->required();
+  clear->callback(
+      [this] { command_ = [this](Station& station, std::ostream& out) { ClearPath(station, id_, out); }; });
+}
+
+void CommandLine::AddPayload() {
+  CLI::App* group = Group(app_, "payload", "Payloads");
+  for (const bool on : {true, false}) {
+    CLI::App* command =
+        group->add_subcommand(on ? "on" : "off", on ? "Switch payloads on" : "Switch payloads off");
+    command->add_option("vehicle", vehicles_, kVehiclesHelp)->required();
+    command->callback([this, on] {
+      command_ = [this, on](Station& station, std::ostream& out) {
+        SwitchPayload(station, vehicles_, on, out);
+      };
+    });
+  }
+}
+
+void CommandLine::AddStatus() {
+  CLI::App* status = app_.add_subcommand("status", "A row for each UAV");
+  status->add_flag("--watch", status_.watch, "Again every second, until Ctrl-C");
+  status->add_flag("--json", status_.json, "As JSON");
+  status->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { ShowStatus(station, status_, out); };
+  });
+}
+
+}  // namespace skein::cli

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "cli/commands.h"
+
+namespace skein::cli {
+
+/// The options of `skein`. After parse(), command() is what was asked for.
+class CommandLine {
+ public:
+  CommandLine();
+
+  CLI::App& app() { return app_; }
+  const std::string& lcm_url() const { return lcm_url_; }
+
+  using Command = std::function<void(Station& station, std::ostream& out)>;
+  const Command& command() const { return command_; }
+
+ private:
+  void AddLink();
+  void AddFormation();
+  void AddPath();
+  void AddPayload();
+  void AddStatus();
+
+  CLI::App app_;
+  std::string lcm_url_;
+  Command command_;
+  LinkOptions link_;
+  PathOptions path_;
+  StatusOptions status_;
+  std::vector<std::string> vehicles_;
+  std::string file_;
+  int id_ = 0;
+  bool json_ = false;
+};
+
+}  // namespace skein::cli

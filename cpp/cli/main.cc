@@ -1,0 +1,54 @@
+#include <iostream>
+
+#include "bus/live_executor.h"
+#include "bus/node_main.h"
+#include "bus/transport.h"
+#include "cli/command_line.h"
+#include "config/scenario.h"
+
+namespace {
+
+using namespace skein;  // NOLINT: the main file of a program
+
+/// Runs the executor for a time. Returns false when it ended before, by SIGINT or SIGTERM.
+bool RunFor(bus::LiveExecutor& executor, bus::Utime duration) {
+  bool over = false;
+  executor.At(executor.Now() + duration, [&] {
+    over = true;
+    executor.Stop();
+  });
+  executor.Run();
+  return over;
+}
+
+void Run(const cli::CommandLine& command_line) {
+  const auto transport =
+      bus::MakeTransport(command_line.lcm_url().empty() ? bus::DefaultUrl() : command_line.lcm_url());
+  bus::LiveExecutor executor(transport.lcm);
+  bus::Bus bus(transport.lcm, "skein", executor);
+  cli::Station station(bus, [&](bus::Utime duration) { return RunFor(executor, duration); });
+  command_line.command()(station, std::cout);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  cli::CommandLine command_line;
+  try {
+    command_line.app().parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return command_line.app().exit(error) == 0 ? bus::kExitGood : bus::kExitUsage;
+  }
+  bus::BlockEndSignals();
+  bus::StartLogging("skein", "warning");
+  try {
+    Run(command_line);
+    return bus::kExitGood;
+  } catch (const config::ConfigError& error) {
+    std::cerr << "skein: " << error.what() << '\n';
+    return bus::kExitUsage;
+  } catch (const std::exception& error) {
+    std::cerr << "skein: " << error.what() << '\n';
+    return bus::kExitFailed;
+  }
+}

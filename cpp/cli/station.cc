@@ -1,0 +1,74 @@
+#include "cli/station.h"
+
+#include "bus/channels.h"
+#include "bus/chunks.h"
+
+namespace skein::cli {
+namespace {
+
+namespace channel = bus::channel;
+
+constexpr bus::Utime kLook = 20'000;  // how often a wait looks at what has come
+constexpr bus::Utime kRepeat = bus::kSecond;
+constexpr int kTries = 3;
+constexpr bus::Utime kRosterLimit = 3 * bus::kSecond;
+
+}  // namespace
+
+Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)) {
+  bus::SubscribeChunks<fleet_roster_t>(bus, channel::kFleetRoster,
+                                       [this](const fleet_roster_t& roster, int missing) {
+                                         if (missing == 0) picture_.roster = roster;
+                                       });
+  bus::SubscribeChunks<fleet_state_t>(bus, channel::kFleetState,
+                                      [this](const fleet_state_t& state, int) { picture_.state = state; });
+  bus::SubscribeChunks<proximity_t>(bus, channel::kProximity, [this](const proximity_t& proximity, int) {
+    picture_.proximity = proximity;
+  });
+  bus::SubscribeChunks<link_status_t>(bus, channel::kLinkStatus,
+                                      [this](const link_status_t& links, int) { picture_.links = links; });
+  bus::SubscribeChunks<formation_status_t>(
+      bus, channel::kFormationStatus,
+      [this](const formation_status_t& status, int) { picture_.statuses[status.formation_id] = status; });
+  bus.Subscribe<formation_t>(channel::kFormation, [this](const formation_t& formation) {
+    picture_.formations[formation.formation_id] = formation;
+  });
+  bus.Subscribe<path_t>(channel::kPath,
+                        [this](const path_t& path) { picture_.paths[path.formation_id] = path; });
+  bus.Subscribe<ack_t>(channel::kAck, [this](const ack_t& ack) {
+    if (ack.command_session_id != bus_.session_id()) return;
+    answers_[{ack.command_channel, ack.command_request_id}] = {ack.accepted != 0, ack.reason};
+  });
+}
+
+bool Station::WaitUntil(const std::function<bool()>& seen, bus::Utime limit) {
+  const bus::Utime end = bus_.executor().Now() + limit;
+  while (!seen() && bus_.executor().Now() < end) {
+    if (!run_(kLook)) throw Interrupted("interrupted");
+  }
+  return seen();
+}
+
+const fleet_roster_t& Station::Roster() {
+  if (!WaitUntil([this] { return picture_.roster.has_value(); }, kRosterLimit)) {
+    throw Failure("no fleet was heard for 3 s: is fleet-simulator running, and on this LCM URL?");
+  }
+  return *picture_.roster;
+}
+
+std::string Station::WaitForAnswer(const std::string& channel, std::int64_t request_id,
+                                   const std::string& who, const std::function<void()>& send) {
+  const auto answer = [&] { return answers_.find({channel, request_id}); };
+  bool answered = false;
+  for (int tries = 0; tries < kTries && !answered; ++tries) {
+    send();
+    answered = WaitUntil([&] { return answer() != answers_.end(); }, kRepeat);
+  }
+  if (!answered) {
+    throw Failure("nobody answered " + channel + " for 3 s: is " + who + " running, and on this LCM URL?");
+  }
+  if (!answer()->second.accepted) throw Failure("refused: " + answer()->second.reason);
+  return answer()->second.reason;
+}
+
+}  // namespace skein::cli

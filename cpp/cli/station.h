@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <skein/fleet_roster_t.hpp>
+#include <skein/fleet_state_t.hpp>
+#include <skein/formation_status_t.hpp>
+#include <skein/formation_t.hpp>
+#include <skein/link_status_t.hpp>
+#include <skein/path_t.hpp>
+#include <skein/proximity_t.hpp>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "bus/bus.h"
+
+namespace skein::cli {
+
+/// What the operator asked for cannot be had: refused, or nobody answers. what() is for the operator; exit
+/// code 1.
+class Failure : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The operator has ended it with Ctrl-C.
+class Interrupted : public Failure {
+  using Failure::Failure;
+};
+
+/// What has been heard of the fleet since the start.
+struct Picture {
+  std::optional<fleet_roster_t> roster;
+  std::optional<fleet_state_t> state;
+  std::optional<proximity_t> proximity;
+  std::optional<link_status_t> links;
+  std::map<int, formation_t> formations;
+  std::map<int, path_t> paths;
+  std::map<int, formation_status_t> statuses;
+};
+
+/// The bus as one run of the skein command sees it: a picture of the fleet, and commands that wait for their
+/// answer.
+class Station {
+ public:
+  /// Runs the executor for a time. Returns false when the operator has ended it (SIGINT).
+  using Run = std::function<bool(bus::Utime duration)>;
+
+  Station(bus::Bus& bus, Run run);
+
+  const Picture& picture() const { return picture_; }
+  bus::Bus& bus() { return bus_; }
+
+  /// Runs until `seen` or until `limit` is over. Returns seen(). Throws Interrupted.
+  bool WaitUntil(const std::function<bool()>& seen, bus::Utime limit);
+  /// Throws Failure when no roster comes within its period and a margin.
+  const fleet_roster_t& Roster();
+
+  /// Sends a command until it is answered; again after one and two seconds, with the same request_id, for a
+  /// message may get lost. Returns the remark. Throws Failure when it is refused, or not answered within 3 s
+  /// (`who` should have).
+  template <typename Command>
+  std::string Ask(const std::string& channel, Command command, const std::string& who) {
+    command.utime = bus_.executor().Now();
+    command.session_id = bus_.session_id();
+    command.request_id = ++last_request_id_;
+    return WaitForAnswer(channel, command.request_id, who, [&] { bus_.Publish(channel, command); });
+  }
+
+ private:
+  struct Answer {
+    bool accepted;
+    std::string reason;
+  };
+
+  std::string WaitForAnswer(const std::string& channel, std::int64_t request_id, const std::string& who,
+                            const std::function<void()>& send);
+
+  bus::Bus& bus_;
+  Run run_;
+  Picture picture_;
+  std::int64_t last_request_id_ = 0;
+  std::map<std::pair<std::string, std::int64_t>, Answer> answers_;  ///< by channel and request_id
+};
+
+}  // namespace skein::cli
