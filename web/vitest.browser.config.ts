@@ -6,7 +6,12 @@ const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 /** The browser tests lie in tests/browser; what they import is installed here. */
 export default defineConfig({
   root: here("../tests/browser"),
-  resolve: { alias: { "playwright-core": here("node_modules/playwright-core/index.mjs") } },
+  resolve: {
+    alias: {
+      "axe-core": here("node_modules/axe-core/axe.js"),
+      "playwright-core": here("node_modules/playwright-core/index.mjs"),
+    },
+  },
   server: { fs: { allow: [here("..")] } },
   test: {
     include: ["*.test.ts"],

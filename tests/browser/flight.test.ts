@@ -45,6 +45,9 @@ test("three UAVs come, fill the table and move on the map", async () => {
   await until(async () => expect(await screen.text(".pill")).toBe("Live"), 15_000);
   expect(await screen.page.locator(".first-run").count()).toBe(0);
 
+  // The map fits itself to the fleet until it knows its slots; from here on it stands still.
+  await screen.page.locator(".mode-card").waitFor();
+  await screen.show(1280, 720, "dark");
   const before = new Map<number, { x: number; y: number }>();
   for (const id of [1, 2, 3]) {
     await until(async () => {
@@ -147,6 +150,14 @@ test("the page fits its window in every size and theme, without scrolling", asyn
     }
   }
   await screen.page.setViewportSize({ width: 1280, height: 720 });
+});
+
+test("axe finds no barrier in either theme", async () => {
+  explain();
+  for (const theme of ["dark", "light"] as const) {
+    await screen.show(1280, 720, theme);
+    expect(await screen.barriers()).toEqual([]);
+  }
 });
 
 test("every control is reached by keyboard, and the focus is seen", async () => {

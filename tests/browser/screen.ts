@@ -2,6 +2,7 @@
 import { mkdirSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
+import axe from "axe-core";
 import { chromium, type BrowserContext, type Locator, type Page } from "playwright-core";
 import { kPageUrl } from "./station";
 
@@ -145,7 +146,15 @@ export class Screen {
     }, id);
   }
 
-  async picture(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
+  /** What axe finds wrong with the page for people who can't see, or not well. */
+  async barriers(): Promise<string[]> {
+    await this.page.evaluate(axe.source);
+    const { violations } = await this.page.evaluate<axe.AxeResults>("axe.run()");
+    return violations.flatMap(({ id, nodes }) => nodes.map((node) => `${id}: ${node.html}`));
+  }
+
+  /** Shows the fleet in a window of this size, in this theme. */
+  async show(width: number, height: number, theme: "dark" | "light"): Promise<void> {
     await this.page.setViewportSize({ width, height });
     await this.page.emulateMedia({ colorScheme: theme });
     await this.page.waitForFunction((wanted) => document.documentElement.dataset["theme"] === wanted, theme);
@@ -154,6 +163,10 @@ export class Screen {
     await this.page.evaluate(
       () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
     );
+  }
+
+  async picture(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
+    await this.show(width, height, theme);
     await this.page.screenshot({
       path: `${kResults}${name}-${width}x${height}-${theme}.png`,
     });
