@@ -3,7 +3,7 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 # shellcheck disable=SC2034  # for those who source this
-programs=(fleet-simulator formation-controller collision-monitor web-bridge)
+default_lcm_url='udpm://239.255.76.67:7667?ttl=0'
 
 say() { printf '%s\n' "$*"; }
 
@@ -32,6 +32,9 @@ step() {
   rm -f "$output"
   ((SECONDS - began < 2)) || say "$title: done in $((SECONDS - began)) s"
 }
+
+# Whether nobody listens on a TCP port of this host.
+port_is_free() { ! (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; }
 
 # Vite and Playwright need Node ^20.19 or >= 22.12; Debian 12's own is 18.
 node_is_new_enough() {
