@@ -16,8 +16,9 @@ import { pixelsPerMetre, viewOf } from "./view";
 const kGroundInterval_ms = 500;
 /** A fleet on a map that stands still moves by a pixel or so in this time. */
 const kFleetInterval_ms = 30;
-/** Where drawing is slow (no GPU, a busy machine), it leaves this part of the time to everything else. */
+/** Where drawing is slow (no GPU, a busy machine), it leaves this part of the time to everything else, within reason. */
 const kIdlePart = 0.5;
+const kLongestFleetInterval_ms = 200;
 const kWaitForSlots_ms = 1500;
 
 /** What the scale shows. */
@@ -157,7 +158,8 @@ export class FleetMap {
     }
     // What a drawn frame costs shows in when the next one comes.
     if (this.drew) this.draw_cost_ms = now_ms - this.fleet_drawn_ms;
-    const interval_ms = Math.max(kFleetInterval_ms, this.draw_cost_ms / (1 - kIdlePart));
+    const fair_ms = this.draw_cost_ms / (1 - kIdlePart);
+    const interval_ms = Math.min(Math.max(kFleetInterval_ms, fair_ms), kLongestFleetInterval_ms);
     this.drew = this.ground_old || now_ms - this.fleet_drawn_ms >= interval_ms;
     if (this.ground_old || now_ms - this.ground_drawn_ms > kGroundInterval_ms) {
       this.ground_old = false;

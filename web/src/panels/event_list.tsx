@@ -31,7 +31,11 @@ export function EventList({ store }: { store: Store }) {
 
 function EventRow({ store, event }: { store: Store; event: BusEvent }) {
   const start_utime = store.roster.value?.start_utime ?? 0;
-  const time = start_utime > 0 ? `T+ ${clock((event.utime - start_utime) / 1e6)}` : utc(event.utime);
+  // Events of an earlier flight have no time in this one.
+  const time =
+    start_utime > 0 && event.utime >= start_utime
+      ? `T+ ${clock((event.utime - start_utime) / 1e6)}`
+      : utc(event.utime);
   return (
     <li title={`${event.event_node}: ${event.code}, ${utc(event.utime)} UTC`}>
       <Lamp level={event.severity} />

@@ -53,11 +53,12 @@ test("events stand newest first, each once, the last 200", () => {
   expect(store.events.value[0]?.event_sequence).toBe(300);
 });
 
-test("a new hello forgets what the old bridge said, but keeps the last fleet on the screen", () => {
-  const store = filled(kHello, kRoster, event(1, 10));
+test("a new hello forgets what the old bridge said, but not what happened nor the last fleet", () => {
+  const store = filled(kHello, kRoster, event(1, 10), { type: "bus", nodes_silent: ["collision-monitor"] });
   store.takeFrame(motionFrame([1]), 0);
   store.takeText(JSON.stringify(kHello));
-  expect(store.events.value).toEqual([]);
+  expect(store.silent_nodes.value).toEqual([]);
+  expect(store.events.value).toHaveLength(1);
   expect(store.roster.value?.scenario).toBe("Test");
   expect(store.fleet.motion).not.toBeNull();
 });

@@ -108,7 +108,7 @@ export class Store {
     return this.callsigns.value.get(id) ?? `UAV ${id}`;
   }
 
-  /** A bridge says hello first, then everything it knows: what it no longer knows is gone. */
+  /** A bridge says hello first, then everything it knows: what it no longer knows is gone. What happened has happened. */
   private startOver(hello: Hello): void {
     this.hello.value = hello;
     this.formations.value = new Map();
@@ -116,7 +116,6 @@ export class Store {
     this.statuses.value = new Map();
     this.heartbeats.value = new Map();
     this.silent_nodes.value = [];
-    this.events.value = [];
   }
 
   private takeRoster(roster: Roster): void {
