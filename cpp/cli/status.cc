@@ -54,13 +54,17 @@ std::map<int, Row> Rows(const Picture& picture) {
   return rows;
 }
 
-/// Of the four columns of a link pair only the worse direction counts at a glance.
+/// One word when both directions agree (an uplink that is not judged agrees), else the directions that are
+/// not up.
 std::string LinkText(const vehicle_link_t& link) {
-  if (link.downlink == link.uplink || link.uplink == link_status_t::LINK_UNKNOWN) {
-    return std::string(kLinks.at(static_cast<std::size_t>(link.downlink)));
-  }
-  return fmt::format("down {}, up {}", kLinks.at(static_cast<std::size_t>(link.downlink)),
-                     kLinks.at(static_cast<std::size_t>(link.uplink)));
+  const auto state = [](std::int8_t number) { return kLinks.at(static_cast<std::size_t>(number)); };
+  if (link.downlink == link.uplink || link.uplink == link_status_t::LINK_UNKNOWN)
+    return std::string(state(link.downlink));
+  std::string text;
+  if (link.downlink != link_status_t::LINK_UP) text = fmt::format("down {}", state(link.downlink));
+  if (link.uplink != link_status_t::LINK_UP)
+    text += fmt::format("{}up {}", text.empty() ? "" : ", ", state(link.uplink));
+  return text;
 }
 
 using Table = std::vector<std::vector<std::string>>;
@@ -162,7 +166,8 @@ std::string FormationTable(const Picture& picture) {
     std::string mode = formation.hold ? "holding" : "-";
     if (const auto status = picture.statuses.find(id); status != picture.statuses.end()) {
       mode = std::string(kModes.at(static_cast<std::size_t>(status->second.mode)));
-      if (!status->second.mode_text.empty()) mode += ": " + status->second.mode_text;
+      const std::string& text = status->second.mode_text;
+      mode = text.starts_with(mode) ? text : mode + (text.empty() ? "" : ": " + text);
     }
     table.push_back({std::to_string(id), formation.name, formation.shape, formation.control, members, mode});
   }
