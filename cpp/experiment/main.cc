@@ -57,6 +57,13 @@ std::vector<Run> Runs(const Arguments& arguments) {
       runs.push_back({UnderControl(scenario, control), label});
     }
   }
+  for (Run& run : runs) {
+    const std::string label = run.label;
+    const auto is_taken = [&](const Run& earlier) { return &earlier < &run && earlier.label == run.label; };
+    for (int number = 2; std::any_of(runs.begin(), runs.end(), is_taken); ++number) {
+      run.label = label + " " + std::to_string(number);
+    }
+  }
   return runs;
 }
 
@@ -194,7 +201,8 @@ int Main(int argc, char** argv) {
       records.push_back(Fly(run, arguments));
       if (interrupted != 0) break;
     }
-    const std::string title = arguments.scenarios.size() == 1 ? runs.front().scenario.name : "";
+    const std::string title =
+        arguments.scenarios.size() == 1 ? runs.front().scenario.name : "Flights compared";
     if (!arguments.plot.empty()) WritePlot(arguments.plot, title, records);
   } catch (const std::exception& error) {
     fmt::print(stderr, "flight-experiment: {}\n", error.what());

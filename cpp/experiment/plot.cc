@@ -53,18 +53,28 @@ class Style {
       }
       if (most_vehicles_ == 1) return entries;
     }
-    const auto largest = std::max_element(runs_.begin(), runs_.end(), [](const auto& a, const auto& b) {
-      return a.vehicles.size() < b.vehicles.size();
-    });
-    for (std::size_t i = 0; i < most_vehicles_ && i < kMostLegendEntries; ++i) {
+    // More than this nobody tells apart anyway.
+    for (std::size_t i = 0; i < most_vehicles_ && most_vehicles_ <= kMostLegendEntries; ++i) {
       Stroke stroke = Of(0, i);
       if (runs_.size() > 1) stroke.dash = "";
-      entries.push_back({largest->vehicles[i].callsign, stroke});
+      entries.push_back({CallsignsAt(i), stroke});
     }
     return entries;
   }
 
  private:
+  /// "UAV1", or "UAV1 / NORTH1" where runs have different ones.
+  std::string CallsignsAt(std::size_t index) const {
+    std::vector<std::string> callsigns;
+    for (const FlightRecord& run : runs_) {
+      if (index >= run.vehicles.size()) continue;
+      const std::string& callsign = run.vehicles[index].callsign;
+      if (std::find(callsigns.begin(), callsigns.end(), callsign) == callsigns.end())
+        callsigns.push_back(callsign);
+    }
+    return fmt::format("{}", fmt::join(callsigns, " / "));
+  }
+
   const std::vector<FlightRecord>& runs_;
   std::size_t most_vehicles_ = 0;
 };
