@@ -28,7 +28,8 @@ class Value {
   /// line and column), or gives one key twice in an object.
   static Value FromFile(const std::filesystem::path& file);
 
-  /// What did not come from a file. `name` stands where a file's name would: "CMD_LINK: /vehicle_id: must be ...".
+  /// What did not come from a file. `name` stands where a file's name would: "CMD_LINK: /vehicle_id: must be
+  /// ...".
   static Value FromJson(nlohmann::json json, std::string name);
 
   double Number(Range range) const;

@@ -25,9 +25,10 @@ enum class Shape { kTriangle, kColumn, kLineAbreast, kEchelonLeft, kEchelonRight
 std::string_view Name(Shape shape);
 std::optional<Shape> ShapeFromName(std::string_view name);
 
-/// Slots of a shape for `count` UAVs (any number >= 0), the first one lead_m behind the virtual leader and foremost.
-/// Neighbours are at least spacing_m apart (horizontally); the shape is balanced left and right where it can be.
-/// kCustom has no slots of its own: throws std::invalid_argument. spacing_m > 0, lead_m >= 0, else throws.
+/// Slots of a shape for `count` UAVs (any number >= 0), the first one lead_m behind the virtual leader and
+/// foremost. Neighbours are at least spacing_m apart (horizontally); the shape is balanced left and right
+/// where it can be. kCustom has no slots of its own: throws std::invalid_argument. spacing_m > 0, lead_m >=
+/// 0, else throws.
 std::vector<SlotOffset> ShapeSlots(Shape shape, int count, double spacing_m, double lead_m = 1000);
 
 }  // namespace skein

@@ -12,7 +12,8 @@ double WrapAngle(double angle_rad);
 /// The angle equal to `angle_rad` modulo 2 pi that is nearest to `reference_rad`.
 double UnwrapNear(double angle_rad, double reference_rad);
 
-/// Horizontal ENU vector (east, north) -> (forward, left) of a leader on course_rad. Eq. (6) of [1], axes put right.
+/// Horizontal ENU vector (east, north) -> (forward, left) of a leader on course_rad. Eq. (6) of [1], axes put
+/// right.
 Eigen::Vector2d ToLeaderFrame(const Eigen::Vector2d& east_north, double course_rad);
 
 /// The inverse of ToLeaderFrame.
