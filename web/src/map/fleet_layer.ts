@@ -5,7 +5,7 @@ import type { Place } from "../state/fleet";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 import { identityOf, type Colours } from "./colours";
-import { FleetLabels, type LeaderSight } from "./fleet_labels";
+import { FleetLabels, type LeaderSight, type WaypointSight } from "./fleet_labels";
 import { Overlay } from "./overlay";
 import { at, kAircraft, kFrameRadius_px, kLeader, kLevelFrames, kSlot, kSymbolRadius_px } from "./shapes";
 import type { Trails } from "./trails";
@@ -13,6 +13,8 @@ import { pixelOf, pixelsPerMetre, viewOf, type Pixel, type View } from "./view";
 
 const kVector_s = 30;
 const kPick_px = 22;
+/** Waypoints say altitude and speed from this scale on. */
+const kWaypointText_px_per_m = 0.03;
 
 /** A UAV as it is drawn in this frame. */
 export interface Sight extends Pixel {
@@ -71,7 +73,7 @@ export class FleetLayer {
     );
     for (const sight of this.sights) this.drawVector(context, view, frame, sight, colours);
     for (const sight of this.sights) this.drawSymbol(context, view, frame, sight, colours);
-    this.labels.draw(context, this.sights, leaders, colours, now_ms);
+    this.labels.draw(context, this.sights, leaders, this.waypoints(view, frame), colours, now_ms);
   }
 
   private look(view: View, frame: LocalFrame, now_ms: number): Sight[] {
@@ -98,6 +100,19 @@ export class FleetLayer {
       });
     }
     return sights;
+  }
+
+  /** Those that say their altitude and speed: none from far away. */
+  private waypoints(view: View, frame: LocalFrame): WaypointSight[] {
+    if (pixelsPerMetre(view, frame.origin.latitude_deg) < kWaypointText_px_per_m) return [];
+    return [...this.store.paths.peek().values()].flatMap(({ formation_id, waypoints }) =>
+      waypoints.map((waypoint, i) => ({
+        ...pixelOf(view, frame, waypoint.east_m, waypoint.north_m, waypoint.up_m),
+        formation_id,
+        number: i + 1,
+        waypoint,
+      })),
+    );
   }
 
   private colourOf(id: number, colours: Colours): string {

@@ -2,17 +2,13 @@
 import type { Map as LeafletMap } from "leaflet";
 import type { Path } from "../link/messages";
 import type { Store } from "../state/store";
-import { fixed } from "../units/format";
 import type { LocalFrame } from "../units/geodesy";
 import { identityOf, type Colours } from "./colours";
 import { drawGrid } from "./grid";
 import { Overlay } from "./overlay";
 import { at, kWaypoint } from "./shapes";
 import type { Trails } from "./trails";
-import { mercatorLine, pixelOf, pixelsPerMetre, viewOf, xOf, yOf, type View } from "./view";
-
-/** Waypoints say altitude and speed from this scale on [px/m]. */
-const kWaypointText_px_per_m = 0.012;
+import { mercatorLine, pixelOf, viewOf, xOf, yOf, type View } from "./view";
 
 export class GroundLayer {
   private readonly overlay: Overlay;
@@ -55,20 +51,13 @@ export class GroundLayer {
     context.stroke();
     context.setLineDash([]);
 
-    const with_text = pixelsPerMetre(view, frame.origin.latitude_deg) > kWaypointText_px_per_m;
-    context.font = "11px 'Inter Variable', sans-serif";
-    path.waypoints.forEach((waypoint, i) => {
+    context.fillStyle = colours.path;
+    for (const waypoint of path.waypoints) {
       const { x, y } = pixelOf(view, frame, waypoint.east_m, waypoint.north_m, waypoint.up_m);
-      context.fillStyle = colours.path;
       at(context, x, y, 0, () => {
         context.fill(kWaypoint);
       });
-      if (!with_text) return;
-      context.fillStyle = colours.map_text;
-      const what = `${fixed(waypoint.up_m)} m ENU  ${fixed(waypoint.speed_m_s)} m/s`;
-      context.fillText(`WP${i + 1}`, x + 9, y - 3);
-      context.fillText(what, x + 9, y + 10);
-    });
+    }
   }
 
   private lineOf(path: Path, frame: LocalFrame): Float64Array {

@@ -3,7 +3,7 @@ import { placeLabels, type LabelRequest, type PlacedLabel } from "./labels";
 
 function request(id: number, x: number, y: number): LabelRequest {
   return {
-    id,
+    key: String(id),
     x,
     y,
     heading_x: 0,
@@ -43,12 +43,12 @@ test("labels of a crowd don't cover one another", () => {
     request(i + 1, 300 + (i % 6) * 60, 200 + Math.floor(i / 6) * 50),
   );
   const placed = placeLabels(crowd, new Map());
-  const boxes = placed.map((label) => box(label, crowd[label.id - 1] as LabelRequest));
+  const boxes = placed.map((label) => box(label, crowd[Number(label.key) - 1] as LabelRequest));
   boxes.forEach((a, i) => {
     for (const b of boxes.slice(i + 1)) expect(overlap(a, b)).toBeLessThanOrEqual(0.04 * 100 * 30);
   });
   expect(placed.length).toBeGreaterThan(10);
-  expect(placed[0]?.id).toBe(1); // the most important keeps its label
+  expect(placed[0]?.key).toBe("1"); // the most important keeps its label
 });
 
 test("of two UAVs at one point, both are named", () => {
@@ -58,6 +58,6 @@ test("of two UAVs at one point, both are named", () => {
 test("a label stays on its side while that is nearly as good", () => {
   const first = placeLabels([request(1, 500, 300)], new Map());
   const left: PlacedLabel = { ...(first[0] as PlacedLabel), side: 1 };
-  const [label] = placeLabels([request(1, 500, 300)], new Map([[1, left]]));
+  const [label] = placeLabels([request(1, 500, 300)], new Map([["1", left]]));
   expect(label?.side).toBe(1);
 });

@@ -1,7 +1,8 @@
 /** Where labels go so that they cover one another and the symbols as little as can be. */
 
 export interface LabelRequest {
-  id: number;
+  /** Tells a label from all others, and finds it again next time. */
+  key: string;
   /** The symbol's middle [px]. */
   x: number;
   y: number;
@@ -18,7 +19,7 @@ export interface LabelRequest {
 }
 
 export interface PlacedLabel {
-  id: number;
+  key: string;
   /** From the symbol's middle to the label's top left corner [px]. */
   dx: number;
   dy: number;
@@ -59,7 +60,7 @@ const kPatience = 0.1;
 /** Labels for `requests`, the most important first; those that find no room are left out. */
 export function placeLabels(
   requests: readonly LabelRequest[],
-  earlier: ReadonlyMap<number, PlacedLabel>,
+  earlier: ReadonlyMap<string, PlacedLabel>,
 ): PlacedLabel[] {
   const symbols = requests.map((r) => around(r.x, r.y, r.clearance * 0.8));
   const taken: Box[] = [];
@@ -67,11 +68,11 @@ export function placeLabels(
   requests.forEach((request, i) => {
     const obstacles = [...taken, ...symbols.filter((_, j) => j !== i)];
     for (const compact of [false, true]) {
-      const best = bestSide(request, compact, obstacles, earlier.get(request.id)?.side);
+      const best = bestSide(request, compact, obstacles, earlier.get(request.key)?.side);
       if (best === null) continue;
       taken.push(best.box);
       placed.push({
-        id: request.id,
+        key: request.key,
         dx: best.box.left - request.x,
         dy: best.box.top - request.y,
         width: best.box.right - best.box.left,

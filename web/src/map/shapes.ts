@@ -31,6 +31,7 @@ export const kLevelFrames: readonly (Path2D | null)[] = [
 /** How far a symbol reaches from its middle, with its frame [px]. */
 export const kSymbolRadius_px = 15;
 export const kFrameRadius_px = 22;
+export const kWaypointRadius_px = 6;
 
 /** Draws with (0, 0) at a point and up the screen turned to a compass direction. */
 export function at(

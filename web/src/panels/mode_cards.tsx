@@ -4,6 +4,8 @@ import { clock, duration } from "../units/format";
 
 /** formation_status_t's modes. */
 const kModes = ["Assembling", "In formation", "Avoiding", "Rejoining", "Holding", "Waiting"] as const;
+/** More formations than this have a line each instead of a card. */
+const kMostCards = 3;
 const kShapes: Readonly<Record<string, string>> = {
   line_abreast: "line abreast",
   echelon_left: "echelon left",
@@ -14,7 +16,7 @@ const kShapes: Readonly<Record<string, string>> = {
 export function ModeCards({ store }: { store: Store }) {
   const statuses = [...store.statuses.value.values()].sort((a, b) => a.formation_id - b.formation_id);
   return (
-    <ul class="modes" aria-label="Formations">
+    <ul class={statuses.length > kMostCards ? "modes compact" : "modes"} aria-label="Formations">
       {statuses.map((status) => (
         <ModeCard key={status.formation_id} store={store} status={status} />
       ))}
