@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "config/readers.h"
 #include "core/frames.h"
