@@ -221,7 +221,7 @@ test("a command that nobody obeys is refused beside its button", async () => {
   await screen.button("Cut the link of UAV1").click();
   const refusal = screen.page.getByRole("alert");
   await refusal.waitFor({ timeout: 10_000 });
-  expect(await refusal.innerText()).toMatch(/nobody answered CMD_LINK/);
+  expect(await refusal.innerText()).toMatch(/answered CMD_LINK within 2 s/);
   await until(async () => expect(await screen.text(".banner")).toContain("fleet-simulator"), 10_000);
   await screen.picture("refused", 1280, 720, "light");
   await screen.button("Dismiss").click();
