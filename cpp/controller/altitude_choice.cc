@@ -20,6 +20,8 @@ double PredictedMiss(const Traffic& a, const Traffic& b) {
   return (apart + when * closing).norm();
 }
 
+}  // namespace
+
 bool FreeOfTraffic(double now_m, double offset_m, const std::vector<Traffic>& body,
                    const std::vector<Traffic>& strangers, const ProximityLimits& limits) {
   for (const Traffic& own : body) {
@@ -35,8 +37,6 @@ bool FreeOfTraffic(double now_m, double offset_m, const std::vector<Traffic>& bo
   return true;
 }
 
-}  // namespace
-
 std::optional<double> ChooseOffset(double now_m, double target_m,
                                    const std::vector<SeparatedMember>& separated,
                                    const std::vector<Traffic>& body, const std::vector<Traffic>& strangers,
@@ -48,20 +48,29 @@ std::optional<double> ChooseOffset(double now_m, double target_m,
            });
   };
   // A target once chosen stays while it can, or the formation would go up and down with every metre of
-  // change.
-  if (target_m != 0 && clear(target_m, 0.8 * limits.clearance_m) &&
+  // change. The planned altitude counts too: who is far from the lost one's level has no reason to leave it.
+  if (clear(target_m, target_m == 0 ? limits.clearance_m : 0.8 * limits.clearance_m) &&
       FreeOfTraffic(now_m, target_m, body, strangers, limits.strangers)) {
     return target_m;
   }
-  for (const double step : kSteps) {
-    std::vector<double> offsets;
-    for (const SeparatedMember& member : separated) offsets.push_back(member.level_m + step);
-    std::sort(offsets.begin(), offsets.end(),
-              [&](double a, double b) { return std::abs(a - now_m) < std::abs(b - now_m); });
-    for (const double offset : offsets) {
-      if (clear(offset, std::min(limits.clearance_m, std::abs(step))) &&
-          FreeOfTraffic(now_m, offset, body, strangers, limits.strangers)) {
-        return offset;
+  const auto crosses_a_level = [&](double offset) {
+    return std::any_of(separated.begin(), separated.end(), [&](const SeparatedMember& member) {
+      return std::min(now_m, offset) < member.level_m && member.level_m < std::max(now_m, offset);
+    });
+  };
+  // On the way to a free altitude it is better not to pass anybody; but better that than to stay.
+  for (const bool may_cross : {false, true}) {
+    for (const double step : kSteps) {
+      std::vector<double> offsets;
+      for (const SeparatedMember& member : separated) offsets.push_back(member.level_m + step);
+      std::sort(offsets.begin(), offsets.end(),
+                [&](double a, double b) { return std::abs(a - now_m) < std::abs(b - now_m); });
+      for (const double offset : offsets) {
+        if (clear(offset, std::min(limits.clearance_m, std::abs(step))) &&
+            (may_cross || !crosses_a_level(offset)) &&
+            FreeOfTraffic(now_m, offset, body, strangers, limits.strangers)) {
+          return offset;
+        }
       }
     }
   }

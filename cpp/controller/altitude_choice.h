@@ -28,6 +28,10 @@ struct AirspaceLimits {
   ProximityLimits strangers;   ///< cylinder of other traffic
 };
 
+/// True when no stranger is, or is about to be, where the body would climb or descend through or stay.
+bool FreeOfTraffic(double now_m, double offset_m, const std::vector<Traffic>& body,
+                   const std::vector<Traffic>& strangers, const ProximityLimits& limits);
+
 /// The offset that the main body of a formation takes while members are separated: 200 m above them, or less,
 /// or below, whatever is free; the present target when that is free still. None when nothing is.
 /// @param body positions and velocities of those who would climb, at their present offset `now_m`.

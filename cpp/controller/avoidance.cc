@@ -18,6 +18,12 @@ AltitudeOffset Avoidance::offset(int id) const {
   return member == members_.end() ? body_.now() : member->second.ramp.now();
 }
 
+bool Avoidance::changing_level(int id) const {
+  const auto member = members_.find(id);
+  return member != members_.end() && member->second.role == Role::kRejoining &&
+         !member->second.ramp.settled();
+}
+
 bool Avoidance::active() const {
   return body_.target_m() != 0 || !body_.settled() ||
          std::any_of(members_.begin(), members_.end(), [](const auto& entry) {
@@ -36,12 +42,15 @@ std::vector<FlightEvent> Avoidance::Update(const std::vector<MemberObservation>&
   std::vector<FlightEvent> events;
   std::map<int, Member> present;
   for (const MemberObservation& seen : members) {
+    if (!seen.heard) continue;
     const auto known = members_.find(seen.id);
     present.emplace(seen.id, known == members_.end() ? NewMember(seen, limits) : known->second);
   }
   members_ = std::move(present);
 
-  for (const MemberObservation& seen : members) UpdateRole(seen, members_.at(seen.id), limits, events);
+  for (const MemberObservation& seen : members) {
+    if (seen.heard) UpdateRole(seen, members_.at(seen.id), limits, events);
+  }
   ChooseBodyTarget(members, strangers, limits, events);
   AltitudeRampLimits ramp_limits;
   ramp_limits.rate_m_s = limits.climb_rate_m_s;
@@ -63,6 +72,7 @@ Avoidance::Member Avoidance::NewMember(const MemberObservation& seen, const Airs
   if (away && std::abs(seen.level_m - body_.now().height_m) > 0.5 * limits.clearance_m) {
     member.role = Role::kRejoining;
     member.ramp = AltitudeRamp({seen.level_m, 0, 0}, body_.limits());
+    member.ramp.SetTarget(RejoinLevel(seen.id, seen.level_m, limits));
   }
   return member;
 }
@@ -85,12 +95,25 @@ void Avoidance::UpdateRole(const MemberObservation& seen, Member& member, const 
   }
   if (member.role == Role::kRejoining) {
     member.level_m = member.ramp.now().height_m;
-    if (seen.ready_to_merge && member.ramp.settled()) {
+    // The level goes with the path; the ceiling and the ground do not.
+    if (limits.lowest_m < limits.highest_m) {
+      member.ramp.SetTarget(std::clamp(member.ramp.target_m(), limits.lowest_m, limits.highest_m));
+    }
+    if (seen.ready_to_merge && member.ramp.settled() && WayToBodyIsFree(seen.id, member.level_m)) {
       member.role = Role::kFlying;
       events.push_back(
           {event_t::INFO, "rejoined", seen.id, fmt::format("{} is back in place", seen.callsign)});
     }
   }
+}
+
+bool Avoidance::WayToBodyIsFree(int id, double level_m) const {
+  const double low = std::min(level_m, body_.target_m());
+  const double high = std::max(level_m, body_.target_m());
+  return std::none_of(members_.begin(), members_.end(), [&](const auto& entry) {
+    const auto& [other_id, other] = entry;
+    return other_id != id && other.role != Role::kFlying && low < other.level_m && other.level_m < high;
+  });
 }
 
 double Avoidance::RejoinLevel(int id, double level_m, const AirspaceLimits& limits) const {
@@ -124,7 +147,10 @@ void Avoidance::ChooseBodyTarget(const std::vector<MemberObservation>& members,
   std::vector<Traffic> body;
   std::string who;
   bool anybody_lost = false;
+  bool all_heard = true;
   for (const MemberObservation& seen : members) {
+    all_heard = all_heard && seen.heard;
+    if (!seen.heard) continue;
     const Member& member = members_.at(seen.id);
     if (member.role == Role::kFlying) {
       body.push_back(seen.track);
@@ -137,19 +163,26 @@ void Avoidance::ChooseBodyTarget(const std::vector<MemberObservation>& members,
   const double before = body_.target_m();
   const bool was_blocked = blocked_;
   blocked_ = false;
-  if (separated.empty() || body.empty()) {
-    // Everybody is in place, or nobody is left who could climb out of the way.
-    if (separated.empty()) body_.SetTarget(0);
+  if (separated.empty()) {
+    // All are in place, unless somebody has not been heard since a restart: the climb may be because of him.
+    if (before != 0 && all_heard) {
+      blocked_ = !FreeOfTraffic(body_.now().height_m, 0, body, strangers, limits.strangers);
+      if (!blocked_) body_.SetTarget(0);
+    }
+  } else if (body.empty()) {
+    // Nobody is left who could get out of the way.
   } else if (const auto offset =
                  ChooseOffset(body_.now().height_m, before, separated, body, strangers, limits)) {
     body_.SetTarget(*offset);
   } else {
     blocked_ = true;
-    if (!was_blocked) {
-      events.push_back(
-          {event_t::WARNING, "avoidance_blocked", 0,
-           "no altitude is free to avoid " + who + ": ceiling, ground or other traffic; staying level"});
-    }
+  }
+  if (blocked_ && !was_blocked) {
+    events.push_back({event_t::WARNING, "avoidance_blocked", 0,
+                      separated.empty()
+                          ? "stays at its altitude: other traffic is in the way to the planned one"
+                          : "no altitude is free to avoid " + who +
+                                ": ceiling, ground or other traffic; stays at its altitude"});
   }
   if (body_.target_m() == before) return;
   const double change = body_.target_m() - body_.now().height_m;

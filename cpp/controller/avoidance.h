@@ -25,6 +25,7 @@ struct FlightEvent {
 struct MemberObservation {
   int id = 0;
   std::string callsign;
+  bool heard = true;  ///< false: no telemetry since the controller started; nothing below is known
   bool lost = false;
   double level_m = 0;           ///< its height over the altitude planned for its slot
   bool ready_to_merge = false;  ///< close enough to its slot, or on a way that is clear of everybody
@@ -45,11 +46,13 @@ class Avoidance {
   Role role(int id) const;
   /// Offset of a member's slot from its planned altitude.
   AltitudeOffset offset(int id) const;
+  /// True while a member that rejoins still changes its level: it must not close in before that.
+  bool changing_level(int id) const;
   /// Offset of the main body, and so of the virtual leader.
   const AltitudeRamp& body() const { return body_; }
   /// True while anybody is lost or rejoins, or the body is away from its planned altitude.
   bool active() const;
-  /// True when there is reason to leave the lost ones' level and no altitude is free.
+  /// True when there is reason to change the altitude and none is free.
   bool blocked() const { return blocked_; }
 
   /// Takes up an avoidance that another run of the controller had begun.
@@ -65,6 +68,7 @@ class Avoidance {
   Member NewMember(const MemberObservation& seen, const AirspaceLimits& limits) const;
   void UpdateRole(const MemberObservation& seen, Member& member, const AirspaceLimits& limits,
                   std::vector<FlightEvent>& events);
+  bool WayToBodyIsFree(int id, double level_m) const;
   double RejoinLevel(int id, double level_m, const AirspaceLimits& limits) const;
   void ChooseBodyTarget(const std::vector<MemberObservation>& members, const std::vector<Traffic>& strangers,
                         const AirspaceLimits& limits, std::vector<FlightEvent>& events);

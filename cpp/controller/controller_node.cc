@@ -1,6 +1,7 @@
 #include "controller/controller_node.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 #include "bus/channels.h"
 #include "bus/chunks.h"
@@ -74,16 +75,20 @@ void FormationControllerNode::OnLinkStatus(const link_status_t& status) {
 }
 
 void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
-  if (state.utime <= tick_utime_) return;
+  // Which ticks are taken, and when a clock was set, SubscribeChunks has decided. After a jump the leaders go
+  // on from where they are: they must neither stand still until a clock comes round again nor be moved by
+  // hours at once.
+  constexpr bus::Utime kLongestGap = 60 * bus::kSecond;
+  if (tick_utime_ != 0 && (state.utime <= tick_utime_ || state.utime > tick_utime_ + kLongestGap)) {
+    for (auto& [id, view] : fleet_) view.TakeClock(state.utime);
+    for (auto& [id, flight] : flights_) flight.TakeClock(state.utime);
+  }
   tick_utime_ = state.utime;
   tick_ = state.tick;
   for (auto& [id, view] : fleet_) view.fresh = false;
   for (const vehicle_state_t& vehicle : state.vehicles) {
     const auto view = fleet_.find(vehicle.id);
-    if (view == fleet_.end() || (view->second.state && vehicle.utime <= view->second.state_utime)) continue;
-    view->second.state = bus::ToVehicleState(vehicle);
-    view->second.state_utime = vehicle.utime;
-    view->second.fresh = true;
+    if (view != fleet_.end()) view->second.Take(bus::ToVehicleState(vehicle), vehicle.utime, tick_utime_);
   }
 
   std::vector<FlightCommand> commands = HoldTheRest();
@@ -93,19 +98,23 @@ void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
     for (const FlightEvent& event : step.events) Tell(flight, event);
   }
   SendCommands(commands);
-  if (tick_ % options_.status_every_ticks == 0) SendStatuses();
+  if (ticks_heard_++ % options_.status_every_ticks == 0) SendStatuses();
 }
 
 std::vector<FlightCommand> FormationControllerNode::HoldTheRest() {
+  std::unordered_set<int> flown;
+  for (const auto& [id, flight] : flights_) {
+    for (const Slot& slot : flight.config().slots) flown.insert(slot.vehicle_id);
+  }
   std::vector<FlightCommand> commands;
   for (const auto& [id, view] : fleet_) {
-    const bool flown = std::any_of(flights_.begin(), flights_.end(),
-                                   [id = id](const auto& entry) { return entry.second.HasMember(id); });
-    if (flown || !view.state) {
+    if (flown.contains(id) || !view.state) {
       held_.erase(id);
       continue;
     }
-    const VehicleState& held = held_.try_emplace(id, *view.state).first->second;
+    VehicleState held = held_.try_emplace(id, *view.state).first->second;
+    // What a silent UAV does about an old difference in altitude nobody sees: it is to stay level.
+    if (!view.fresh) held.up_m = view.state->up_m;
     // One that is not heard is still commanded, so that its uplink can be judged.
     if (view.fresh || view.lost) commands.push_back({id, HoldAltitude(held, *view.state, view.model)});
   }

@@ -74,8 +74,10 @@ class FormationControllerNode {
   bus::Utime start_utime_ = 0;        ///< t = 0 of the scenario; 0: no roster yet
   bus::Utime tick_utime_ = 0;
   std::int64_t tick_ = 0;
+  std::int64_t ticks_heard_ = 0;
   std::int64_t request_id_ = 0;
   std::int64_t sequence_ = 0;
+  bool state_unwritable_ = false;
 };
 
 }  // namespace skein::controller

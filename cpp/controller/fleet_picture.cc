@@ -1,9 +1,32 @@
 #include "controller/fleet_picture.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 namespace skein::controller {
+
+void VehicleView::Take(const VehicleState& heard, bus::Utime stamp, bus::Utime tick_utime) {
+  constexpr bus::Utime kFarOff = 2 * bus::kSecond;  // older ones than this are no mere jitter
+  const bool newer = !stamp_ || stamp > *stamp_;
+  if (!newer || stamp > tick_utime + kFarOff) {
+    if (!newer && stamp > *stamp_ - kFarOff) return;
+    odd_stamps_ = stamp > odd_stamp_ ? odd_stamps_ + 1 : 1;
+    odd_stamp_ = stamp;
+    if (odd_stamps_ < 3) return;
+  }
+  odd_stamps_ = 0;
+  stamp_ = stamp;
+  state = heard;
+  state_utime = std::min(stamp, tick_utime);
+  fresh = true;
+}
+
+void VehicleView::TakeClock(bus::Utime tick_utime) {
+  state_utime = tick_utime;
+  stamp_.reset();
+  odd_stamps_ = 0;
+}
 
 VehicleState VehicleView::At(bus::Utime utime) const {
   assert(state);

@@ -1,4 +1,6 @@
 // What an operator changes in flight: slots, path, hold.
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -38,10 +40,24 @@ double FormationFlight::KeepBehind() const {
 }
 
 std::string FormationFlight::Edit(const config::FormationConfig& config, const FleetPicture& fleet) {
+  for (const auto& [id, member] : members_) {
+    const bool stays = std::any_of(config.slots.begin(), config.slots.end(),
+                                   [id = id](const Slot& slot) { return slot.vehicle_id == id; });
+    // The others keep clear of it, which nobody would once it is no member any more.
+    if (!stays && avoidance_.role(id) != Role::kFlying) {
+      return fmt::format("UAV {} cannot be taken out before its link is back and it is in place", id);
+    }
+  }
   // The path was planned for the slots as they were, often right up to the planning limits; a wider formation
   // may use more.
   const std::string violation = Violation(leader_.path(), LimitsFor(fleet, config.slots, kShareOfAnEdit));
-  if (!violation.empty()) return "its path cannot be flown in this formation: " + violation;
+  std::optional<Path> wider_circle;
+  if (!violation.empty() && before_hold_) {
+    wider_circle = Loiter(leader_.path(), leader_.arc_m(), KeepBehind(), LimitsFor(fleet, config.slots)).path;
+  }
+  if (!violation.empty() && !wider_circle) {
+    return "its path cannot be flown in this formation: " + violation;
+  }
   const config::FormationConfig before = config_;
   config_ = config;
   std::map<int, Member> members;
@@ -58,18 +74,21 @@ std::string FormationFlight::Edit(const config::FormationConfig& config, const F
     return error.what();
   }
   members_ = std::move(members);
+  if (wider_circle) {
+    leader_.SetPath(*wider_circle);
+    ++path_revision_;
+  }
   return "";
 }
 
 std::string FormationFlight::TakePath(const std::vector<Waypoint>& waypoints, bool closed,
                                       const FleetPicture& fleet) {
   const PathLimits limits = LimitsFor(fleet, config_.slots);
-  // Slots ahead of the leader stand on the path already, so a new one may begin only beyond them.
-  const double from = leader_.arc_m() + std::max(0.0, limits.foremost_m);
+  const double from = leader_.arc_m();
   PathResult planned;
   if (waypoints.empty()) {
     const PathPoint here = leader_.path().At(from);
-    const Eigen::Vector2d ahead = FromLeaderFrame({kStraightAhead, 0}, here.course_rad);
+    const Eigen::Vector2d ahead = FromLeaderFrame({kStraightAhead + limits.foremost_m, 0}, here.course_rad);
     planned.path = Path::Straight(here.position + ahead, here.course_rad, here.up_m, here.speed_m_s);
   } else {
     planned = PlanWaypoints(waypoints, closed, limits);
@@ -88,10 +107,9 @@ std::string FormationFlight::TakePath(const std::vector<Waypoint>& waypoints, bo
 std::string FormationFlight::Hold(const FleetPicture& fleet) {
   if (before_hold_) return "";
   const PathLimits limits = LimitsFor(fleet, config_.slots);
-  const double from = leader_.arc_m() + std::max(0.0, limits.foremost_m);
-  const PathResult circle = Loiter(leader_.path(), from, KeepBehind(), limits);
+  const PathResult circle = Loiter(leader_.path(), leader_.arc_m(), KeepBehind(), limits);
   if (!circle.path) return circle.reason;
-  before_hold_ = PathBeforeHold{leader_.path(), from};
+  before_hold_ = PathBeforeHold{leader_.path(), leader_.arc_m()};
   leader_.SetPath(*circle.path);
   ++path_revision_;
   return "";
@@ -100,9 +118,8 @@ std::string FormationFlight::Hold(const FleetPicture& fleet) {
 std::string FormationFlight::Resume(const FleetPicture& fleet) {
   if (!before_hold_) return "it does not hold";
   const PathLimits limits = LimitsFor(fleet, config_.slots);
-  const double from = leader_.arc_m() + std::max(0.0, limits.foremost_m);
   const PathResult joined =
-      Join(leader_.path(), from, before_hold_->path, before_hold_->arc_m, KeepBehind(), limits);
+      Join(leader_.path(), leader_.arc_m(), before_hold_->path, before_hold_->arc_m, KeepBehind(), limits);
   if (!joined.path) return joined.reason;
   leader_.SetPath(*joined.path);
   before_hold_.reset();

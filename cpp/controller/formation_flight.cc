@@ -15,7 +15,17 @@ constexpr double kFirstStep = 0.05;  // [s], before there is a last one
 constexpr double kMergeDistance = 50;
 
 constexpr std::size_t kMostToPredict = 50;
-constexpr bus::Utime kPredictWithin = 50'000;  // a tick
+
+/// Where the UAV is, on the course that it has; climbing as `slot` does. It closes in only when its level is
+/// its own.
+SlotReference StraightOn(SlotReference slot, const VehicleState& uav, const Envelope& envelope) {
+  slot.position.head<2>() = Position(uav).head<2>();
+  slot.course_rad = uav.course_rad;
+  slot.course_rate_rad_s = 0;
+  slot.speed_m_s = std::clamp(uav.speed_m_s, 1.1 * envelope.min_speed_m_s, 0.9 * envelope.max_speed_m_s);
+  slot.acceleration_m_s2 = 0;
+  return slot;
+}
 
 VehicleState Lowered(VehicleState state, double seconds, double rate_m_s) {
   state.up_m -= rate_m_s * seconds;
@@ -30,10 +40,16 @@ FormationFlight::FormationFlight(const config::FormationConfig& config, VirtualL
   for (const Slot& slot : config_.slots) members_.emplace(slot.vehicle_id, MakeMember(slot));
 }
 
+void FormationFlight::TakeClock(bus::Utime utime) {
+  leader_ = VirtualLeader(leader_.path(), leader_.arc_m(), bus::ToSeconds(utime));
+  utime_ = utime;
+  for (auto& [id, member] : members_) member.controlled_utime = member.predict_utime = 0;
+}
+
 FormationFlight::Member FormationFlight::MakeMember(const Slot& slot) const {
   if (config_.control == "paper")
-    return {slot.offset, PaperLaw(PaperParametersFrom(config_.gains)), 0, {}, {}, {}, false};
-  return {slot.offset, SkeinLaw(SkeinLawParametersFrom(config_.gains)), 0, {}, {}, {}, false};
+    return {slot.offset, PaperLaw(PaperParametersFrom(config_.gains)), 0, 0, {}, {}, {}, false};
+  return {slot.offset, SkeinLaw(SkeinLawParametersFrom(config_.gains)), 0, 0, {}, {}, {}, false};
 }
 
 FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
@@ -44,14 +60,15 @@ FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
   std::vector<MemberObservation> observations;
   for (auto& [id, member] : members_) {
     const auto view = fleet.find(id);
-    if (view == fleet.end() || !view->second.state) continue;
-    observations.push_back(Observe(id, member, view->second, leader_.arc_m()));
+    const bool heard = view != fleet.end() && view->second.state;
+    observations.push_back(heard ? Observe(id, member, view->second) : Unheard(id));
   }
-  std::vector<Traffic> strangers;
-  const AirspaceLimits limits = Surroundings(fleet, strangers);
-
+  const bool somebody_lost = std::any_of(observations.begin(), observations.end(),
+                                         [](const MemberObservation& seen) { return seen.lost; });
   FlightStep step;
-  step.events = avoidance_.Update(observations, strangers, limits, step_s);
+  step.events = avoidance_.Update(
+      observations, somebody_lost || avoidance_.active() ? Strangers(fleet) : std::vector<Traffic>(),
+      Surroundings(fleet), step_s);
   for (auto& [id, member] : members_) {
     member.flown = false;
     const auto view = fleet.find(id);
@@ -74,29 +91,35 @@ FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
   return step;
 }
 
-MemberObservation FormationFlight::Observe(int id, const Member& member, const VehicleView& view,
-                                           double arc_m) const {
+MemberObservation FormationFlight::Unheard(int id) const {
+  MemberObservation seen;
+  seen.id = id;
+  seen.heard = false;
+  return seen;
+}
+
+MemberObservation FormationFlight::Observe(int id, Member& member, const VehicleView& view) {
   MemberObservation seen;
   seen.id = id;
   seen.callsign = view.callsign;
   seen.lost = view.lost;
   const VehicleState now = view.At(utime_);
-  const SlotReference planned = SlotOnPath(leader_.path(), arc_m, member.slot, {});
-  seen.level_m = now.up_m - planned.position.z();
+  seen.level_m = now.up_m - PlaceOf(member.slot, {}).position.z();
   seen.track = {Position(now), Velocity(now)};
   seen.ready_to_merge = avoidance_.role(id) == Role::kRejoining && ReadyToMerge(id, member, view);
   return seen;
 }
 
-bool FormationFlight::ReadyToMerge(int id, const Member& member, const VehicleView& view) const {
-  const double arc = leader_.ArcAt(bus::ToSeconds(view.state_utime));
-  const SlotReference slot = SlotOnPath(leader_.path(), arc, member.slot, avoidance_.offset(id));
-  if (SlotError(slot, Position(*view.state)).head<2>().norm() < kMergeDistance) return true;
+bool FormationFlight::ReadyToMerge(int id, Member& member, const VehicleView& view) {
+  const SlotReference slot = PlaceOf(member.slot, avoidance_.offset(id));
+  if (SlotError(slot, Position(view.At(utime_))).head<2>().norm() < kMergeDistance) return true;
 
   // Farther away the others may come down early when flying it ahead shows that nobody gets near. Once a
   // second, and not in formations so large that it would cost the tick.
   const auto* law = std::get_if<SkeinLaw>(&member.law);
-  if (!law || members_.size() > kMostToPredict || utime_ % bus::kSecond >= kPredictWithin) return false;
+  if (!law || members_.size() > kMostToPredict || avoidance_.changing_level(id)) return false;
+  if (utime_ < member.predict_utime) return false;
+  member.predict_utime = utime_ + bus::kSecond;
   const auto descent = [this](int member_id) {
     AltitudeRamp ramp(avoidance_.offset(member_id), avoidance_.body().limits());
     ramp.SetTarget(0);
@@ -108,6 +131,7 @@ bool FormationFlight::ReadyToMerge(int id, const Member& member, const VehicleVi
     if (avoidance_.role(other_id) != Role::kFlying) return false;
     others.push_back({other.slot, descent(other_id)});
   }
+  const double arc = leader_.ArcAt(bus::ToSeconds(view.state_utime));
   return ClearsEveryCylinder(leader_.path(), arc, {member.slot, descent(id), *law, *view.state, view.model},
                              std::move(others), config_.proximity);
 }
@@ -128,23 +152,26 @@ double FormationFlight::ClimbRate(const FleetPicture& fleet) const {
   return std::max(rate, kSlowest);
 }
 
-AirspaceLimits FormationFlight::Surroundings(const FleetPicture& fleet,
-                                             std::vector<Traffic>& strangers) const {
-  AirspaceLimits limits;
-  limits.strangers = airspace_.strangers;
-  // Cylinder, dead-reckoning uncertainty (DESIGN: up to 50 m) and room to level off.
-  limits.clearance_m = config_.proximity.height_m + 50 + 20;
+std::vector<Traffic> FormationFlight::Strangers(const FleetPicture& fleet) const {
+  std::vector<Traffic> strangers;
   for (const auto& [id, view] : fleet) {
-    if (!view.state) continue;
+    if (!view.state || members_.contains(id)) continue;
     const VehicleState now = view.At(utime_);
-    if (members_.contains(id)) continue;
     strangers.push_back({Position(now), Velocity(now)});
   }
+  return strangers;
+}
+
+AirspaceLimits FormationFlight::Surroundings(const FleetPicture& fleet) const {
+  AirspaceLimits limits;
+  limits.strangers = airspace_.strangers;
+  // Cylinder, dead-reckoning uncertainty (up to 50 m) and room to level off.
+  limits.clearance_m = config_.proximity.height_m + 50 + 20;
   limits.climb_rate_m_s = ClimbRate(fleet);
-  const double planned = leader_.path().At(leader_.arc_m()).up_m;
   for (const auto& [id, member] : members_) {
-    limits.highest_m = std::min(limits.highest_m, airspace_.ceiling_m - planned - member.slot.up_m);
-    limits.lowest_m = std::max(limits.lowest_m, airspace_.floor_m - planned - member.slot.up_m);
+    const double planned = PlaceOf(member.slot, {}).position.z();
+    limits.highest_m = std::min(limits.highest_m, airspace_.ceiling_m - planned);
+    limits.lowest_m = std::max(limits.lowest_m, airspace_.floor_m - planned);
   }
   return limits;
 }
@@ -162,7 +189,9 @@ LawOutput FormationFlight::Fly(Member& member, const VehicleView& view, const Al
   if (auto* law = std::get_if<SkeinLaw>(&member.law)) {
     const AltitudeOffset then{offset.height_m - offset.rate_m_s * age, offset.rate_m_s,
                               offset.acceleration_m_s2};
-    return law->Control(SlotOnPath(leader_.path(), arc, member.slot, then), *view.state, view.model, step_s);
+    SlotReference slot = SlotOnPath(leader_.path(), arc, member.slot, then);
+    if (avoidance_.changing_level(view.id)) slot = StraightOn(slot, *view.state, view.model.envelope);
+    return law->Control(slot, *view.state, view.model, step_s);
   }
   const VehicleState leader = Lowered(LeaderState(leader_.path(), arc, offset), age, offset.rate_m_s);
   LawOutput output;

@@ -46,6 +46,9 @@ class FormationFlight {
   /// One control step, at the time of a FLEET_STATE tick (not before the last one).
   FlightStep Step(const FleetPicture& fleet, bus::Utime utime);
 
+  /// The fleet's clock was set: what was is now at `utime`.
+  void TakeClock(bus::Utime utime);
+
   /// Takes new slots, control, gains or limits in flight. @return why not, empty when taken.
   std::string Edit(const config::FormationConfig& config, const FleetPicture& fleet);
   /// A new path, joined from where the leader is; no waypoints: straight on. @return why not, empty when
@@ -65,6 +68,13 @@ class FormationFlight {
   std::int64_t path_revision() const { return path_revision_; }
   void SetPathRevision(std::int64_t revision) { path_revision_ = revision; }
   bool HasMember(int vehicle_id) const { return members_.contains(vehicle_id); }
+  /// Where Hold left the path, for Resume.
+  struct PathBeforeHold {
+    Path path;
+    double arc_m;
+  };
+  const std::optional<PathBeforeHold>& before_hold() const { return before_hold_; }
+  void SetBeforeHold(PathBeforeHold before) { before_hold_ = std::move(before); }
   bool holding() const { return before_hold_.has_value(); }
 
   /// Leader, slots and mode after the last step, as one message (not yet in chunks).
@@ -75,22 +85,20 @@ class FormationFlight {
     SlotOffset slot;
     std::variant<SkeinLaw, PaperLaw> law;
     bus::Utime controlled_utime = 0;   ///< time stamp of the telemetry last answered
+    bus::Utime predict_utime = 0;      ///< not before this is its rejoin flown ahead again
     std::optional<VehicleState> held;  ///< what it holds while its link is lost
     Eigen::Vector3d error{0, 0, 0};    ///< slot minus UAV, slot frame
     Eigen::Vector3d slot_position{0, 0, 0};
     bool flown = false;
   };
-  struct PathBeforeHold {
-    Path path;
-    double arc_m;
-  };
-
   Member MakeMember(const Slot& slot) const;
   PathLimits LimitsFor(const FleetPicture& fleet, const std::vector<Slot>& slots, double share = 0.6) const;
-  MemberObservation Observe(int id, const Member& member, const VehicleView& view, double arc_m) const;
+  MemberObservation Unheard(int id) const;
+  MemberObservation Observe(int id, Member& member, const VehicleView& view);
   double ClimbRate(const FleetPicture& fleet) const;
-  AirspaceLimits Surroundings(const FleetPicture& fleet, std::vector<Traffic>& strangers) const;
-  bool ReadyToMerge(int id, const Member& member, const VehicleView& view) const;
+  std::vector<Traffic> Strangers(const FleetPicture& fleet) const;
+  AirspaceLimits Surroundings(const FleetPicture& fleet) const;
+  bool ReadyToMerge(int id, Member& member, const VehicleView& view);
   LawOutput Fly(Member& member, const VehicleView& view, const AltitudeOffset& offset);
   LawOutput HoldLost(Member& member, const VehicleView& view) const;
   SlotReference PlaceOf(const SlotOffset& slot, const AltitudeOffset& offset) const;

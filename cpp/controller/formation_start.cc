@@ -123,15 +123,23 @@ void FormationControllerNode::SaveState() {
   ControllerState state;
   state.start_utime = start_utime_;
   for (const auto& [id, flight] : flights_) {
-    state.formations.push_back(
-        {FormationMessage(flight, tick_utime_), PathMessage(flight, tick_utime_), flight.Status(tick_)});
+    FormationState saved{FormationMessage(flight, tick_utime_), PathMessage(flight, tick_utime_),
+                         flight.Status(tick_), std::nullopt, 0};
+    if (flight.before_hold()) {
+      saved.path_before_hold = bus::ToMessage(flight.before_hold()->path);
+      saved.path_before_hold->utime = tick_utime_;
+      saved.path_before_hold->formation_id = id;
+      saved.arc_before_hold_m = flight.before_hold()->arc_m;
+    }
+    state.formations.push_back(std::move(saved));
   }
   try {
     WriteState(options_.state_file, state);
+    state_unwritable_ = false;
   } catch (const std::exception& error) {
     // Flying goes on without it; say so once.
-    events_.Tell(event_t::CAUTION, "state_not_saved", error.what());
-    options_.state_file.clear();
+    if (!state_unwritable_) events_.Tell(event_t::CAUTION, "state_not_saved", error.what());
+    state_unwritable_ = true;
   }
 }
 
@@ -151,6 +159,9 @@ bool FormationControllerNode::RestoreState() {
       flight.SetPathRevision(saved.path.path_revision);
       flight.RestoreAvoidance({saved.status.avoidance_up_m, saved.status.avoidance_rate_m_s, 0},
                               saved.status.avoidance_target_m);
+      if (saved.path_before_hold) {
+        flight.SetBeforeHold({bus::ToPath(*saved.path_before_hold), saved.arc_before_hold_m});
+      }
       flights_.emplace(saved.formation.formation_id, std::move(flight));
     } catch (const std::invalid_argument& error) {
       spdlog::warn("formation {} is not taken up again: {}", saved.formation.formation_id, error.what());

@@ -72,6 +72,9 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
   } else if (avoidance_.active() && !body.settled()) {
     mode = formation_status_t::MODE_REJOINING;
     mode_text_ = climb + " to the planned altitude";
+  } else if (avoidance_.blocked()) {
+    mode = formation_status_t::MODE_REJOINING;
+    mode_text_ = level + ": other traffic is in the way to the planned altitude";
   } else if (loiters) {
     mode = formation_status_t::MODE_HOLDING;
     mode_text_ = before_hold_ ? "loitering: hold" : "loitering: end of its path";
@@ -91,7 +94,7 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
 
 formation_status_t FormationFlight::Status(std::int64_t tick) const {
   formation_status_t status;
-  status.utime = utime_;
+  status.utime = utime_ != 0 ? utime_ : bus::ToUtime(leader_.time_s());
   status.formation_id = config_.id;
   status.tick = tick;
   status.mode = mode_;

@@ -40,12 +40,16 @@ bus::Answer FormationControllerNode::OnFormationCommand(const formation_command_
       gone.num_slots = 0;
       flights_.erase(flight);
       bus_.Publish(bus::channel::kFormation, gone);
+      SaveState();
       return bus::Answer::Accepted();
     }
     default:
       return bus::Answer::Refused("unknown action");
   }
-  if (why_not.empty()) SendFormation(flight->second);
+  if (why_not.empty()) {
+    SendFormation(flight->second);
+    SaveState();
+  }
   return AnswerOf(why_not);
 }
 
@@ -64,6 +68,7 @@ bus::Answer FormationControllerNode::Apply(const formation_t& message) {
        {event_t::INFO, "formation_applied", 0,
         fmt::format("{} of {} UAVs, control {}", Name(config.shape), config.slots.size(), config.control)});
   SendFormation(flight);
+  SaveState();
   return bus::Answer::Accepted();
 }
 
@@ -92,6 +97,7 @@ bus::Answer FormationControllerNode::OnPathCommand(const path_command_t& command
                               ? std::string("flies straight on: no path")
                               : fmt::format("flies a new path of {} waypoints", command.num_waypoints)});
     SendFormation(flight->second);
+    SaveState();
   }
   return AnswerOf(why_not);
 }

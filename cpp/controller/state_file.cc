@@ -1,5 +1,6 @@
 #include "controller/state_file.h"
 
+#include <bit>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -12,7 +13,7 @@
 namespace skein::controller {
 namespace {
 
-constexpr char kMagic[] = "skein-controller-state-1\n";
+constexpr char kMagic[] = "skein-controller-state-2\n";
 
 void Append(std::string& bytes, std::int64_t number) {
   bytes.append(reinterpret_cast<const char*>(&number), sizeof number);
@@ -64,6 +65,11 @@ void WriteState(const std::filesystem::path& file, const ControllerState& state)
     Append(bytes, formation.formation);
     Append(bytes, formation.path);
     Append(bytes, formation.status);
+    Append(bytes, static_cast<std::int64_t>(formation.path_before_hold.has_value()));
+    if (formation.path_before_hold) {
+      Append(bytes, *formation.path_before_hold);
+      Append(bytes, std::bit_cast<std::int64_t>(formation.arc_before_hold_m));
+    }
   }
   const std::filesystem::path temporary = file.string() + ".new";
   std::ofstream stream(temporary, std::ios::binary | std::ios::trunc);
@@ -87,8 +93,16 @@ std::optional<ControllerState> ReadState(const std::filesystem::path& file) {
     auto formation = reader.Take<formation_t>();
     auto path = reader.Take<path_t>();
     auto status = reader.Take<formation_status_t>();
-    if (!formation || !path || !status) return std::nullopt;
-    state.formations.push_back({std::move(*formation), std::move(*path), std::move(*status)});
+    const auto holds = reader.Number();
+    if (!formation || !path || !status || !holds) return std::nullopt;
+    FormationState saved{std::move(*formation), std::move(*path), std::move(*status), std::nullopt, 0};
+    if (*holds != 0) {
+      saved.path_before_hold = reader.Take<path_t>();
+      const auto arc = reader.Number();
+      if (!saved.path_before_hold || !arc) return std::nullopt;
+      saved.arc_before_hold_m = std::bit_cast<double>(*arc);
+    }
+    state.formations.push_back(std::move(saved));
   }
   return state;
 }

@@ -16,6 +16,8 @@ struct FormationState {
   formation_t formation;
   path_t path;
   formation_status_t status;
+  std::optional<path_t> path_before_hold;  ///< when it holds: what Resume goes back to, and where
+  double arc_before_hold_m = 0;
 };
 
 struct ControllerState {

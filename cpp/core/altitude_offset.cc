@@ -11,7 +11,13 @@ AltitudeRamp::AltitudeRamp(const AltitudeOffset& start, const AltitudeRampLimits
 bool AltitudeRamp::settled() const { return now_.height_m == target_m_ && now_.rate_m_s == 0; }
 
 void AltitudeRamp::Advance(double step_s) {
-  if (step_s <= 0) return;
+  // A gap in time is flown in steps short enough for the discrete braking below.
+  constexpr double kLongestStep = 0.1;
+  for (; step_s > kLongestStep && !settled(); step_s -= kLongestStep) Step(kLongestStep);
+  if (step_s > 0) Step(std::min(step_s, kLongestStep));
+}
+
+void AltitudeRamp::Step(double step_s) {
   const double a = limits_.acceleration_m_s2;
   const double distance = target_m_ - now_.height_m;
   // Close enough to arrive within this step without exceeding the acceleration.

@@ -38,6 +38,8 @@ class AltitudeRamp {
   void SetLimits(const AltitudeRampLimits& limits) { limits_ = limits; }
 
  private:
+  void Step(double step_s);
+
   AltitudeRampLimits limits_;
   AltitudeOffset now_;
   double target_m_ = 0;

@@ -48,9 +48,6 @@ class SkeinLaw {
   LawOutput Control(const SlotReference& slot, const VehicleState& state, const VehicleModel& model,
                     double step_s);
 
-  /// Forgets what it has learnt of the UAV; after a new slot or a lost link there is nothing else to reset.
-  void Reset() { learnt_m_s_.setZero(); }
-
   const SkeinLawParameters& parameters() const { return parameters_; }
 
  private:

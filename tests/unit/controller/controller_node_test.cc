@@ -75,10 +75,11 @@ class ControllerNodeTest : public testing::Test {
   void Fly(int ticks) {
     for (int i = 0; i < ticks; ++i) {
       fleet_state_t state{};
-      state.utime = executor_.Now();
+      state.utime = executor_.Now() + clock_error_;
       state.session_id = 1;
       state.tick = tick_++;
       for (const auto& [id, uav] : uavs_) {
+        if (id == silent_) continue;
         vehicle_state_t vehicle = bus::ToMessage(uav);
         vehicle.utime = state.utime;
         vehicle.id = id;
@@ -128,6 +129,8 @@ class ControllerNodeTest : public testing::Test {
   std::map<int, VehicleState> uavs_;
   bus::Utime start_utime_ = bus::SimulatedExecutor::kStart;
   std::int64_t tick_ = 0;
+  bus::Utime clock_error_ = 0;
+  int silent_ = 0;
   std::int64_t request_id_ = 0;
   int command_messages_ = 0;
   std::map<int, vehicle_command_t> commands_;
@@ -226,6 +229,39 @@ TEST_F(ControllerNodeTest, StartsANewFormationWhereItsUavsFly) {
   EXPECT_EQ(node_->flights().size(), 2u);
 }
 
+TEST_F(ControllerNodeTest, GoesOnCommandingWhenTheFleetsClockIsSetBack) {
+  Start();
+  SendRoster();
+  Fly(30);
+  clock_error_ = -60 * bus::kSecond;
+  Fly(10);  // the third rising stamp is taken
+  const int before = command_messages_;
+  Fly(20);
+  EXPECT_EQ(command_messages_, before + 20);
+  EXPECT_EQ(commands_.size(), 4u);
+}
+
+TEST_F(ControllerNodeTest, KeepsASilentUavThatIsInNoFormationLevel) {
+  Start();
+  SendRoster();
+  Fly(30);
+  uavs_.at(9).up_m -= 30;  // below what it holds, when it is heard last
+  Fly(1);
+  silent_ = 9;
+  link_status_t links{};
+  links.utime = executor_.Now();
+  vehicle_link_t link{};
+  link.id = 9;
+  link.downlink = link_status_t::LINK_LOST;
+  links.links.push_back(link);
+  bus::PublishChunks(station_, bus::channel::kLinkStatus, links);
+  executor_.Deliver();
+  commands_.clear();
+  Fly(5);
+  ASSERT_TRUE(commands_.contains(9)) << "or its uplink could not be judged";
+  EXPECT_NEAR(commands_.at(9).climb_input_rad, 0, 1e-9);
+}
+
 TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   options_.state_file =
       std::filesystem::temp_directory_path() / ("skein_state_" + std::to_string(::getpid()));
@@ -244,7 +280,9 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   station_.Publish(bus::channel::kCmdPath, path);
   executor_.Deliver();
   ASSERT_TRUE(ack_.accepted) << ack_.reason;
-  Fly(60);
+  Fly(30);
+  ASSERT_TRUE(Ask(Command(formation_command_t::ACTION_HOLD)).accepted);
+  Fly(30);
   const double arc = node_->flights().at(1).leader().arc_m();
 
   // Another process with nothing but the file.
@@ -272,6 +310,7 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   ASSERT_EQ(restarted.flights().size(), 1u);
   const FormationFlight& flight = restarted.flights().at(1);
   EXPECT_EQ(flight.waypoints().size(), 2u);
+  EXPECT_TRUE(flight.holding()) << "and Resume knows the path";
   EXPECT_NEAR(flight.leader().arc_m(), arc, 60) << "as of the last second";
   EXPECT_NEAR(flight.leader().path().At(arc).position.x(),
               node_->flights().at(1).leader().path().At(arc).position.x(), 1e-6);

@@ -167,6 +167,41 @@ TEST(FormationFlight, MovesToNewSlotsAndRefusesOnesThatItsPathIsTooTightFor) {
   EXPECT_TRUE(bench.flight.config().gains.empty());
 }
 
+TEST(FormationFlight, WidensTheCircleThatItHoldsOn) {
+  FlightBench bench(Triangle(300), Northbound());
+  bench.Fly(10);
+  ASSERT_EQ(bench.flight.Hold(bench.fleet), "");
+  bench.Fly(200);
+  ASSERT_EQ(bench.flight.Edit(Triangle(600), bench.fleet), "");
+  bench.Fly(300);
+  for (int id : {1, 2, 3}) EXPECT_LE(bench.Error(id).norm(), 5);
+  EXPECT_TRUE(bench.flight.holding());
+}
+
+TEST(FormationFlight, RefusesToDropAMemberWhoseLinkIsLost) {
+  FlightBench bench(Triangle(), Northbound());
+  bench.Fly(5);
+  bench.Cut(3);
+  bench.Fly(8);
+  auto pair = Triangle();
+  pair.slots.pop_back();
+  EXPECT_NE(bench.flight.Edit(pair, bench.fleet).find("link"), std::string::npos);
+  bench.Restore(3);
+  bench.Fly(60);
+  EXPECT_EQ(bench.flight.Edit(pair, bench.fleet), "");
+}
+
+TEST(FormationFlight, GoesOnWhenTheFleetsClockIsSet) {
+  FlightBench bench(Triangle(), Northbound());
+  bench.Fly(5);
+  const double arc = bench.flight.leader().arc_m();
+  bench.flight.TakeClock(5'000'000);
+  EXPECT_DOUBLE_EQ(bench.flight.leader().arc_m(), arc);
+  for (auto& [id, view] : bench.fleet) view.TakeClock(5'000'000);
+  EXPECT_EQ(bench.flight.Step(bench.fleet, 5'050'000).commands.size(), 3u);
+  EXPECT_NEAR(bench.flight.leader().arc_m(), arc + 2.5, 0.01);
+}
+
 TEST(FormationFlight, FliesUnderThePapersLawToo) {
   FlightBench bench(Triangle(500, "paper"), Northbound());
   bench.uavs.at(1).state.up_m -= 100;

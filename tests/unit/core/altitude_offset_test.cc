@@ -68,6 +68,15 @@ TEST(AltitudeRamp, TellsTheTimeThatIsLeftInMidClimb) {
   EXPECT_NEAR(time, 22.5, 0.5);
 }
 
+TEST(AltitudeRamp, DoesNotJumpOverAGapInTime) {
+  AltitudeRamp ramp;
+  ramp.SetTarget(200);
+  ramp.Advance(10);  // 5 s to 10 m/s, 5 s at it
+  EXPECT_NEAR(ramp.now().height_m, 75, 1);
+  ramp.Advance(1000);
+  EXPECT_TRUE(ramp.settled());
+}
+
 TEST(AltitudeRamp, StaysWhereItIsWithoutATarget) {
   AltitudeRamp ramp;
   ramp.Advance(1);
