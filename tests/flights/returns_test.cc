@@ -19,7 +19,8 @@ struct Return {
 
 /// A formation of three to five in some shape, on a path of turns; the link of one of them is cut before or
 /// in a turn.
-Return RandomReturn(unsigned seed, double spacing_m) {
+/// With two of them, the second one's link is cut while the first one is away or on its way back.
+Return RandomReturn(unsigned seed, double spacing_m, bool two = false) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<>(low, high)(random);
@@ -69,13 +70,20 @@ Return RandomReturn(unsigned seed, double spacing_m) {
   cut.for_s = flight.lost_s;
   flight.scenario.timeline.push_back({flight.cut_s, cut});
   flight.scenario.duration_s = flight.cut_s + flight.lost_s + 300;
+  if (two) {
+    cut.vehicle_id = 1 + lost % count;
+    cut.for_s = between(36, 90);
+    const double cut_s = flight.cut_s + between(0, 60);
+    flight.scenario.timeline.push_back({cut_s, cut});
+    flight.scenario.duration_s = cut_s + *cut.for_s + 400;
+  }
   return flight;
 }
 
-void FlyReturns(unsigned first_seed, int count, double spacing_m) {
+void FlyReturns(unsigned first_seed, int count, double spacing_m, bool two = false) {
   for (int i = 0; i < count; ++i) {
     const unsigned seed = first_seed + static_cast<unsigned>(i);
-    const Return flight = RandomReturn(seed, spacing_m);
+    const Return flight = RandomReturn(seed, spacing_m, two);
     SCOPED_TRACE("seed " + std::to_string(seed) + ", spacing " + std::to_string(spacing_m));
     const ProximityLimits limits = flight.scenario.formations.at(0).proximity;
     double nearest = 1e9;
@@ -85,6 +93,8 @@ void FlyReturns(unsigned first_seed, int count, double spacing_m) {
       for (const auto& event : tick.events) path_refused = path_refused || event.code == "path_refused";
       for (std::size_t a = 0; a < tick.vehicles.size(); ++a) {
         for (std::size_t b = a + 1; b < tick.vehicles.size(); ++b) {
+          // Two that nobody can command may meet whatever the station does.
+          if (tick.vehicles[a].uplink_cut && tick.vehicles[b].uplink_cut) continue;
           const double ratio = CylinderRatio(tick.vehicles[a].truth, tick.vehicles[b].truth, limits);
           if (ratio < nearest) nearest = ratio, nearest_s = tick.t_s;
         }
@@ -93,14 +103,18 @@ void FlyReturns(unsigned first_seed, int count, double spacing_m) {
     EXPECT_FALSE(path_refused);
     EXPECT_GE(nearest, 1) << "inside a cylinder at " << nearest_s << " s, cut at " << flight.cut_s
                           << " s for " << flight.lost_s << " s";
-    ASSERT_EQ(summary.drops.size(), 1u);
-    EXPECT_TRUE(summary.drops[0].in_slot_s) << "it did not come back into its slot";
+    ASSERT_EQ(summary.drops.size(), two ? 2u : 1u);
+    for (const auto& drop : summary.drops) {
+      EXPECT_TRUE(drop.in_slot_s) << "UAV" << drop.vehicle_id << " did not come back into its slot";
+    }
   }
 }
 
 TEST(ReturnInTurns, NobodyEntersACylinderAtThreeHundredMetresSpacing) { FlyReturns(1, 150, 300); }
 
 TEST(ReturnInTurns, NobodyEntersACylinderAtFiveHundredMetresSpacing) { FlyReturns(1001, 150, 500); }
+
+TEST(ReturnInTurns, NobodyEntersACylinderWhenTwoAreLostAtOnce) { FlyReturns(2001, 60, 400, true); }
 
 }  // namespace
 }  // namespace skein::flights
