@@ -19,7 +19,7 @@ struct Return {
 
 /// A formation of three to five in some shape, on a path of turns; the link of one of them is cut before or
 /// in a turn.
-/// With two of them, the second one's link is cut while the first one is away or on its way back.
+/// With two of them, the second one's link is cut while the first one is away and the others climb.
 Return RandomReturn(unsigned seed, double spacing_m, bool two = false) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {
@@ -73,7 +73,7 @@ Return RandomReturn(unsigned seed, double spacing_m, bool two = false) {
   if (two) {
     cut.vehicle_id = 1 + lost % count;
     cut.for_s = between(36, 90);
-    const double cut_s = flight.cut_s + between(0, 60);
+    const double cut_s = flight.cut_s + between(5, 30);  // the others are climbing
     flight.scenario.timeline.push_back({cut_s, cut});
     flight.scenario.duration_s = cut_s + *cut.for_s + 400;
   }
