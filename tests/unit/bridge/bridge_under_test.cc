@@ -12,6 +12,8 @@ BridgeUnderTest::BridgeUnderTest(BridgeOptions options) {
   options.port = 0;
   bridge_ = std::make_unique<WebBridge>(bus_, executor_, options);
   thread_ = std::thread([this] { executor_.Run(); });
+  // Run() forgets a Stop() that came before it.
+  OnBus([](bus::Bus&) {});
 }
 
 BridgeUnderTest::~BridgeUnderTest() {

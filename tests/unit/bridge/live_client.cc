@@ -37,9 +37,12 @@ struct LiveClient::Impl {
   }
 };
 
-LiveClient::LiveClient(std::uint16_t port, const std::string& origin, const std::string& target)
+LiveClient::LiveClient(std::uint16_t port, const std::string& origin, const std::string& target,
+                       int receive_buffer_bytes)
     : impl_(std::make_unique<Impl>()) {
   auto& tcp = beast::get_lowest_layer(impl_->socket).socket();
+  tcp.open(asio::ip::tcp::v4());
+  if (receive_buffer_bytes > 0) tcp.set_option(asio::socket_base::receive_buffer_size(receive_buffer_bytes));
   tcp.connect({asio::ip::make_address("127.0.0.1"), port});
   impl_->socket.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
     if (!origin.empty()) request.set(beast::http::field::origin, origin);

@@ -12,9 +12,10 @@ namespace skein::bridge {
 /// A browser's end of the WebSocket. Nothing here waits longer than 10 s.
 class LiveClient {
  public:
-  /// @param origin header, "" for none. Throws when the upgrade is refused.
-  explicit LiveClient(std::uint16_t port, const std::string& origin = "",
-                      const std::string& target = "/live");
+  /// @param origin header, "" for none. @param receive_buffer_bytes 0: what the kernel thinks right; little,
+  /// and the bridge soon notices when nobody reads here. Throws when the upgrade is refused.
+  explicit LiveClient(std::uint16_t port, const std::string& origin = "", const std::string& target = "/live",
+                      int receive_buffer_bytes = 0);
   ~LiveClient();
 
   struct Message {
