@@ -222,7 +222,7 @@ test("a command that nobody obeys is refused beside its button", async () => {
   const refusal = screen.page.getByRole("alert");
   await refusal.waitFor({ timeout: 10_000 });
   expect(await refusal.innerText()).toMatch(/answered CMD_LINK within 2 s/);
-  await until(async () => expect(await screen.text(".banner")).toContain("fleet-simulator"), 10_000);
+  await until(async () => expect(await screen.text(".banner")).toContain("No telemetry for"), 10_000);
   await screen.picture("refused", 1280, 720, "light");
   await screen.button("Dismiss").click();
   await refusal.waitFor({ state: "detached" });
