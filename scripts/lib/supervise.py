@@ -7,6 +7,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import threading
 import time
 import urllib.error
 import urllib.request
@@ -18,17 +19,24 @@ STOP_TIMEOUT_S = 5
 # A process that dies this often within this time is not started again.
 DEATHS, DEATHS_WITHIN_S = 5, 30
 
+asked_to_end = threading.Event()  # set by Ctrl-C and the like; asking again changes nothing
+
 
 class StartFailed(Exception):
     pass
 
 
-class Interrupted(BaseException):
+class Interrupted(Exception):
     pass
 
 
 def say(text):
     print(text, flush=True)
+
+
+def pause():
+    if asked_to_end.wait(0.1):
+        raise Interrupted
 
 
 class Process:
@@ -132,7 +140,7 @@ class Flight:
             if tell_at and time.monotonic() > tell_at:
                 say("Waiting for the programs to answer ...")
                 tell_at = None
-            time.sleep(0.1)
+            pause()
 
     def silent(self):
         """Names of the programs that have not been heard yet."""
@@ -150,7 +158,7 @@ class Flight:
         kept = list(self.processes)
         while kept:
             kept = [process for process in kept if process.runs() or process.revive()]
-            time.sleep(0.1)
+            pause()
         raise StartFailed("nothing is left running")
 
     def stop(self):
@@ -169,10 +177,6 @@ class Flight:
                 say(f"The log is {os.path.relpath(recording)} ({size_mb:.1f} MB); scripts/replay plays it")
 
 
-def interrupt(signal_number, frame):
-    raise Interrupted
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--root", type=pathlib.Path, required=True)
@@ -183,9 +187,8 @@ def main():
 
     flight = Flight(options)
     status = 0
-    endings = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    for ending in endings:
-        signal.signal(ending, interrupt)
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, lambda *_: asked_to_end.set())
     try:
         flight.start()
         say(f"Skein flies {options.scenario.stem}: http://127.0.0.1:{options.port}   (Ctrl-C ends it)")
@@ -196,8 +199,6 @@ def main():
     except Interrupted:
         say("\nEnding ...")
     finally:
-        for ending in endings:
-            signal.signal(ending, signal.SIG_IGN)
         flight.stop()
     return status
 

@@ -87,11 +87,14 @@ TEST_F(RunScriptTest, StartsAllTellsTheAddressAndOnCtrlCEndsAllAndTellsTheLog) {
   EXPECT_GT(std::filesystem::file_size(std::string(SKEIN_SOURCE_DIR) + "/" + log), 1000U);
 }
 
-TEST_F(RunScriptTest, EndsAllOnTerm) {
+TEST_F(RunScriptTest, EndsAllOnTermAndMindsNoImpatience) {
   Process run(Command());
   ASSERT_TRUE(run.WaitForOutput(Address(), 60s)) << run.output();
   run.Signal(SIGTERM);
+  run.Signal(SIGINT);
+  run.Signal(SIGINT);
   EXPECT_EQ(run.WaitForEnd(15s), 0) << run.output();
+  EXPECT_EQ(run.output().find("Traceback"), std::string::npos) << run.output();
   EXPECT_EQ(ProcessesWith(url_).size(), 0U);
 }
 
