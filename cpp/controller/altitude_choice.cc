@@ -53,9 +53,11 @@ std::optional<double> ChooseOffset(double now_m, double target_m,
       FreeOfTraffic(now_m, target_m, body, strangers, limits.strangers)) {
     return target_m;
   }
+  // Who is at the body's own level, give or take, is left rather than passed.
   const auto crosses_a_level = [&](double offset) {
     return std::any_of(separated.begin(), separated.end(), [&](const SeparatedMember& member) {
-      return std::min(now_m, offset) < member.level_m && member.level_m < std::max(now_m, offset);
+      return std::abs(member.level_m - now_m) > 0.5 * limits.clearance_m &&
+             std::min(now_m, offset) < member.level_m && member.level_m < std::max(now_m, offset);
     });
   };
   // On the way to a free altitude it is better not to pass anybody; but better that than to stay.

@@ -66,6 +66,16 @@ TEST_F(AvoidanceTest, LeadsTheOthersUpTwoHundredMetresAndBackDown) {
   EXPECT_TRUE(Told("avoidance_ended"));
 }
 
+TEST_F(AvoidanceTest, ClimbsAlsoWhenTheLostUavIsALittleAboveTheOthers) {
+  for (const double level : {-20.0, 0.3, 20.0}) {
+    avoidance_ = Avoidance();
+    Uav(3).lost = true;
+    Uav(3).level_m = level;
+    Fly(30);
+    EXPECT_DOUBLE_EQ(Height(1), level + 200);
+  }
+}
+
 TEST_F(AvoidanceTest, NobodyClimbsWhenAllAreLost) {
   for (MemberObservation& seen : members_) seen.lost = true;
   Fly(30);
