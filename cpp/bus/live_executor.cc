@@ -124,7 +124,6 @@ void LiveExecutor::HandleMessages() {
 }
 
 void LiveExecutor::Run() {
-  stop_ = false;
   const int lcm_fd = transport_->getFileno();
   while (!stop_) {
     std::vector<pollfd> fds{{lcm_fd, POLLIN, 0}, {wake_fd_, POLLIN, 0}, {signal_fd_, POLLIN, 0}};
@@ -153,6 +152,7 @@ void LiveExecutor::Run() {
       RunGuarded([&] { timers_.RunOne(now); });
     }
   }
+  stop_ = false;  // only now, for a Stop() that came before Run() counts
 }
 
 }  // namespace skein::bus

@@ -81,6 +81,14 @@ TEST_F(LiveExecutorTest, RunsTimersUntilStopped) {
   EXPECT_GE(executor_.Now() - start, 4000);
 }
 
+TEST_F(LiveExecutorTest, EndsAtOnceWhenItWasStoppedBeforeItRan) {
+  executor_.Stop();
+  executor_.At(executor_.Now() + 20 * kSecond, [this] { executor_.Stop(); });  // should it not end by itself
+  const Utime start = executor_.Now();
+  executor_.Run();
+  EXPECT_LT(executor_.Now() - start, 10 * kSecond);
+}
+
 TEST_F(LiveExecutorTest, RunsWhatAnotherThreadPosts) {
   const auto own = std::this_thread::get_id();
   std::thread::id ran_on;
