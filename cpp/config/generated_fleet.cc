@@ -10,7 +10,9 @@ namespace {
 double Symmetric(std::mt19937& random) { return static_cast<double>(random()) / 2147483647.5 - 1; }
 
 Eigen::Vector3d PlaceInGrid(int index, int columns, const Eigen::Vector3d& step) {
-  return {step.x() * (index % columns), step.y() * (index / columns), step.z() * index};
+  const int column = index % columns;
+  const int row = index / columns;
+  return {step.x() * column, step.y() * row, step.z() * index};
 }
 
 LeaderConfig Moved(LeaderConfig leader, const Eigen::Vector3d& by) {
