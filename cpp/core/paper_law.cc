@@ -72,8 +72,8 @@ PaperParameters PaperParametersFrom(const std::map<std::string, double>& by_name
   PaperParameters parameters;
   const auto names = Names(parameters);
   for (const auto& [name, value] : by_name) {
-    const auto found =
-        std::find_if(names.begin(), names.end(), [&](const Named& named) { return named.name == name; });
+    const auto found = std::find_if(names.begin(), names.end(),
+                                    [&name = name](const Named& named) { return named.name == name; });
     if (found == names.end()) {
       throw std::invalid_argument("control \"paper\" has no gain \"" + name + "\"");
     }

@@ -151,17 +151,19 @@ std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& r
       kWidth, height);
   svg += Text(kWidth / 2, 28, title, "middle", 16, "font-weight=\"bold\"");
   for (std::size_t i = 0; i < legend.size(); ++i) {
-    const std::size_t in_line = std::min(per_line, legend.size() - i / per_line * per_line);
+    const std::size_t line = i / per_line;
+    const std::size_t in_line = std::min(per_line, legend.size() - line * per_line);
     const double left = (kWidth - entry_width * static_cast<double>(in_line)) / 2 +
                         entry_width * static_cast<double>(i % per_line);
-    const double y = kTitleHeight + kLegendLine * (static_cast<double>(i / per_line) + 0.5);
+    const double y = kTitleHeight + kLegendLine * (static_cast<double>(line) + 0.5);
     svg += Sample(left, y, 36, legend[i].stroke);
     svg += Text(left + 42, y + 4, legend[i].text, "start");
   }
   const double chart_width = (kWidth - 2 * kMargin) / 2;
   for (std::size_t i = 0; i < charts.size(); ++i) {
+    const std::size_t row = i / 2;
     svg += Draw(charts[i], {kMargin + chart_width * static_cast<double>(i % 2),
-                            top + kChartHeight * static_cast<double>(i / 2), chart_width, kChartHeight});
+                            top + kChartHeight * static_cast<double>(row), chart_width, kChartHeight});
   }
   return svg + "</svg>\n";
 }
