@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,6 +18,19 @@ namespace {
 
 using namespace std::chrono_literals;
 using nlohmann::json;
+
+/// What the bridge tells of the UAVs, as soon as all of them are where the log leaves them (or when time is
+/// up).
+json WaitForVehicles(int port, const FlightLog& log, std::chrono::seconds timeout) {
+  const auto deadline = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    json vehicles = json::parse(HttpGet(port, "/api/vehicles").value()).at("vehicles");
+    const bool at_end = std::all_of(vehicles.begin(), vehicles.end(), [&](const json& vehicle) {
+      return vehicle.at("north_m") == log.curves.at(vehicle.at("id")).back().state.north_m;
+    });
+    if (at_end || std::chrono::steady_clock::now() > deadline) return vehicles;
+  }
+}
 
 TEST(Replay, ShowsOnASecondPageTheFlightThatWasRecorded) {
   const std::string folder = FreshFolder("skein-replay");
@@ -36,7 +50,8 @@ TEST(Replay, ShowsOnASecondPageTheFlightThatWasRecorded) {
                   std::to_string(port), "--lcm-url", FreshLcmUrl()});
   ASSERT_TRUE(replay.WaitForOutput("That was the end of the log", 60s)) << replay.output();
 
-  const json vehicles = json::parse(HttpGet(port, "/api/vehicles").value()).at("vehicles");
+  // The player has sent the last tick; the page's bridge may still have it before it.
+  const json vehicles = WaitForVehicles(port, log, 10s);
   ASSERT_EQ(vehicles.size(), 3U);
   for (const json& vehicle : vehicles) {
     const vehicle_state_t& last = log.curves.at(vehicle.at("id")).back().state;
