@@ -18,7 +18,9 @@ export default defineConfig({
     environment: "node",
     testTimeout: 120_000,
     hookTimeout: 60_000,
-    // The tests are the steps of one flight: after a failure the next ones can only fail too.
+    // All use one bus and one port.
+    fileParallelism: false,
+    // The tests of a file are the steps of one flight: after a failure the next ones can only fail too.
     bail: 1,
   },
 });

@@ -3,7 +3,7 @@ import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
 import { Screen } from "./screen";
 import { Station } from "./station";
 
-const station = new Station();
+const station = new Station({ scenario: "flight.json" });
 let screen: Screen;
 
 const until = (what: () => Promise<void> | void, timeout: number) =>

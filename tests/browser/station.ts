@@ -7,17 +7,10 @@ const kHere = fileURLToPath(new URL(".", import.meta.url));
 const kBin = process.env["SKEIN_BIN"] ?? `${kHere}../../build/bin`;
 const kLcmUrl = process.env["SKEIN_TEST_LCM_URL"] ?? "udpm://239.255.76.67:7707?ttl=0";
 const kPort = process.env["SKEIN_TEST_PORT"] ?? "8107";
-const kScenario = `${kHere}scenario.json`;
 const kWeb = `${kHere}../../web/dist`;
 
-const kArguments = {
-  "web-bridge": ["--port", kPort, "--web", kWeb],
-  "fleet-simulator": ["--scenario", kScenario],
-  "formation-controller": ["--scenario", kScenario],
-  "collision-monitor": ["--scenario", kScenario],
-};
-
-export type NodeName = keyof typeof kArguments;
+const kNodes = ["web-bridge", "fleet-simulator", "formation-controller", "collision-monitor"] as const;
+export type NodeName = (typeof kNodes)[number];
 export const kPageUrl = `http://127.0.0.1:${kPort}/`;
 
 interface Running {
@@ -26,12 +19,28 @@ interface Running {
   output: string;
 }
 
+export interface StationOptions {
+  /** A file in tests/browser/scenarios. */
+  scenario: string;
+  /** More arguments for web-bridge. */
+  bridge?: readonly string[];
+}
+
 export class Station {
   private readonly running = new Map<NodeName, Running>();
 
+  constructor(private readonly options: StationOptions) {}
+
+  private argumentsOf(name: NodeName): string[] {
+    return name === "web-bridge"
+      ? ["--port", kPort, "--web", kWeb, ...(this.options.bridge ?? [])]
+      : ["--scenario", `${kHere}scenarios/${this.options.scenario}`];
+  }
+
+  /** All of them unless some are named. */
   start(...names: NodeName[]): void {
-    for (const name of names) {
-      const child = spawn(`${kBin}/${name}`, [...kArguments[name], "--lcm-url", kLcmUrl], {
+    for (const name of names.length === 0 ? kNodes : names) {
+      const child = spawn(`${kBin}/${name}`, [...this.argumentsOf(name), "--lcm-url", kLcmUrl], {
         stdio: ["ignore", "pipe", "pipe"],
       });
       const running: Running = { process: child, output: "" };

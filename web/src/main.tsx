@@ -1,10 +1,14 @@
 import { render } from "preact";
 import "leaflet/dist/leaflet.css";
 import "./style/main.css";
-import { App } from "./app";
+import { Api } from "./link/api";
 import { Commands } from "./link/commands";
 import { Connection } from "./link/connection";
 import { decodeFrame } from "./link/frames";
+import { signal } from "@preact/signals";
+import type { MapAccess } from "./map/map_access";
+import { Shell } from "./shell/shell";
+import type { Station } from "./shell/station";
 import { followTheme } from "./state/settings";
 import { Store } from "./state/store";
 
@@ -37,16 +41,15 @@ setInterval(() => {
 }, kBeat_ms);
 connection.start();
 
+const station: Station = {
+  store,
+  commands,
+  api: new Api(document.baseURI),
+  map: signal<MapAccess | null>(null),
+  retry: () => {
+    connection.retryNow();
+  },
+};
+
 const root = document.getElementById("app");
-if (root !== null) {
-  render(
-    <App
-      store={store}
-      commands={commands}
-      retry={() => {
-        connection.retryNow();
-      }}
-    />,
-    root,
-  );
-}
+if (root !== null) render(<Shell station={station} />, root);

@@ -78,7 +78,7 @@ export class FleetLabels {
   }
 
   private captionOf(sight: Sight, now_ms: number): Caption {
-    const selected = sight.id === this.store.selected_id.peek();
+    const selected = this.store.selection.peek().has(sight.id);
     return {
       ...sight,
       key: `uav ${sight.id}`,

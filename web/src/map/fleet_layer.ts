@@ -236,7 +236,7 @@ export class FleetLayer {
         context.lineWidth = 2.5;
         context.stroke(outline);
       }
-      if (this.store.selected_id.peek() === sight.id) brackets(context, colours.text);
+      if (this.store.selection.peek().has(sight.id)) brackets(context, colours.text);
     });
     at(context, sight.x, sight.y, Math.PI / 2 - sight.course_rad, () => {
       context.lineJoin = "round";

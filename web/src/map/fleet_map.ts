@@ -10,6 +10,7 @@ import { readColours, type Colours } from "./colours";
 import { FleetLayer } from "./fleet_layer";
 import { localGridStep_m } from "./grid";
 import { GroundLayer } from "./ground_layer";
+import type { EnuPoint, MapAccess, MapTool } from "./map_access";
 import { Trails } from "./trails";
 import { pixelsPerMetre, viewOf } from "./view";
 
@@ -28,10 +29,10 @@ export interface MapScale {
   grid_m: number | null;
 }
 
-export class FleetMap {
+export class FleetMap implements MapAccess {
   readonly following = signal(false);
   readonly scale = signal<MapScale | null>(null);
-  private readonly map: L.Map;
+  readonly leaflet: L.Map;
   private readonly trails = new Trails();
   private readonly land: Land;
   private readonly ground: GroundLayer;
@@ -39,7 +40,8 @@ export class FleetMap {
   private readonly camera: Camera;
   private readonly undo: (() => void)[] = [];
   private colours: Colours = readColours();
-  private frame: LocalFrame | null = null;
+  private local: LocalFrame | null = null;
+  private tool: MapTool | null = null;
   private start_utime = 0;
   private ground_drawn_ms = -Infinity;
   private fleet_drawn_ms = -Infinity;
@@ -54,9 +56,9 @@ export class FleetMap {
   constructor(
     container: HTMLElement,
     private readonly store: Store,
-    freeArea: () => DOMRect,
+    readonly freeArea: () => DOMRect,
   ) {
-    this.map = L.map(container, {
+    this.leaflet = L.map(container, {
       center: [25, 20],
       zoom: 2.5,
       minZoom: 2,
@@ -69,11 +71,11 @@ export class FleetMap {
       zoomControl: false,
       preferCanvas: true,
     });
-    this.map.attributionControl.setPrefix('<a href="https://leafletjs.com">Leaflet</a>');
-    this.land = new Land(this.map);
-    this.ground = new GroundLayer(this.map, store, this.trails);
-    this.fleet = new FleetLayer(this.map, store, this.trails);
-    this.camera = new Camera(this.map, store, freeArea);
+    this.leaflet.attributionControl.setPrefix('<a href="https://leafletjs.com">Leaflet</a>');
+    this.land = new Land(this.leaflet);
+    this.ground = new GroundLayer(this.leaflet, store, this.trails);
+    this.fleet = new FleetLayer(this.leaflet, store, this.trails);
+    this.camera = new Camera(this.leaflet, store, freeArea);
     this.listen(container);
     // A map without land is still a map: grid, fleet and tiles don't need it.
     this.land.load().catch(() => undefined);
@@ -85,33 +87,62 @@ export class FleetMap {
     for (const step of this.undo) step();
     this.ground.remove();
     this.fleet.remove();
-    this.map.remove();
+    this.leaflet.remove();
   }
 
   /** Names those who made the map; the page places it where no panel covers it. */
   get attribution(): HTMLElement {
-    return this.map.attributionControl.getContainer() ?? document.createElement("div");
+    return this.leaflet.attributionControl.getContainer() ?? document.createElement("div");
   }
 
   fit(): void {
     this.to_fit = true;
   }
 
+  frame(): LocalFrame | null {
+    return this.local;
+  }
+
+  place(east_m: number, north_m: number, up_m = 0): L.LatLng | null {
+    if (this.local === null) return null;
+    const at = this.local.toLatLon(east_m, north_m, up_m);
+    return L.latLng(at.latitude_deg, at.longitude_deg);
+  }
+
+  enu(at: L.LatLng): EnuPoint | null {
+    return this.local?.toEnu(at.lat, at.lng, this.local.origin.altitude_m) ?? null;
+  }
+
+  claim(tool: MapTool): () => void {
+    this.tool?.onLost();
+    this.tool = tool;
+    this.leaflet.getContainer().style.cursor = tool.cursor;
+    return () => {
+      if (this.tool !== tool) return;
+      this.tool = null;
+      this.leaflet.getContainer().style.cursor = "";
+    };
+  }
+
   zoom(steps: number): void {
-    this.map.setZoom(this.map.getZoom() + steps);
+    this.leaflet.setZoom(this.leaflet.getZoom() + steps);
   }
 
   private listen(container: HTMLElement): void {
-    this.map.on("move zoom resize", () => {
+    this.leaflet.on("move zoom resize", () => {
       this.ground_old = true;
     });
-    this.map.on("dragstart", () => {
+    this.leaflet.on("dragstart", () => {
       this.following.value = false;
     });
-    this.map.on("click", (event) => {
-      this.store.selected_id.value = this.fleet.pick(event.containerPoint);
+    this.leaflet.on("click", (event) => {
+      if (this.tool !== null) return;
+      const id = this.fleet.pick(event.containerPoint);
+      const { ctrlKey, metaKey, shiftKey } = event.originalEvent;
+      if (id !== null && (ctrlKey || metaKey || shiftKey)) this.store.toggleSelected(id);
+      else this.store.select(id === null ? [] : [id]);
     });
-    const resized = new ResizeObserver(() => this.map.invalidateSize({ animate: false }));
+    const resized = new ResizeObserver(() => this.leaflet.invalidateSize({ animate: false }));
     resized.observe(container);
     this.undo.push(
       () => {
@@ -127,7 +158,7 @@ export class FleetMap {
       }),
       effect(() => {
         const tiles = tileLayer(this.store.hello.value);
-        tiles?.addTo(this.map);
+        tiles?.addTo(this.leaflet);
         return () => tiles?.remove();
       }),
     );
@@ -138,11 +169,11 @@ export class FleetMap {
     if (roster === null) return;
     const { origin } = roster;
     const same =
-      this.frame?.origin.latitude_deg === origin.latitude_deg &&
-      this.frame.origin.longitude_deg === origin.longitude_deg &&
-      this.frame.origin.altitude_m === origin.altitude_m;
+      this.local?.origin.latitude_deg === origin.latitude_deg &&
+      this.local.origin.longitude_deg === origin.longitude_deg &&
+      this.local.origin.altitude_m === origin.altitude_m;
     if (same && this.start_utime === roster.start_utime) return;
-    this.frame = localFrame(origin);
+    this.local = localFrame(origin);
     this.start_utime = roster.start_utime;
     this.trails.clear();
     this.fleet_seen_ms = Infinity;
@@ -151,10 +182,10 @@ export class FleetMap {
 
   private readonly animate = (now_ms: number): void => {
     this.animation = requestAnimationFrame(this.animate);
-    if (this.frame !== null) {
-      this.trails.sample(this.store.fleet, this.frame);
-      if (this.to_fit) this.fitNow(this.frame, now_ms);
-      else if (this.following.peek()) this.camera.follow(this.frame, now_ms);
+    if (this.local !== null) {
+      this.trails.sample(this.store.fleet, this.local);
+      if (this.to_fit) this.fitNow(this.local, now_ms);
+      else if (this.following.peek()) this.camera.follow(this.local, now_ms);
     }
     // What a drawn frame costs shows in when the next one comes.
     if (this.drew) this.draw_cost_ms = now_ms - this.fleet_drawn_ms;
@@ -164,12 +195,12 @@ export class FleetMap {
     if (this.ground_old || now_ms - this.ground_drawn_ms > kGroundInterval_ms) {
       this.ground_old = false;
       this.ground_drawn_ms = now_ms;
-      this.ground.draw(this.frame, this.colours);
+      this.ground.draw(this.local, this.colours);
       this.measure();
     }
     if (this.drew) {
       this.fleet_drawn_ms = now_ms;
-      this.fleet.draw(this.frame, this.colours, now_ms);
+      this.fleet.draw(this.local, this.colours, now_ms);
     }
   };
 
@@ -180,10 +211,10 @@ export class FleetMap {
   }
 
   private measure(): void {
-    const view = viewOf(this.map);
-    const latitude_deg = this.map.getCenter().lat;
+    const view = viewOf(this.leaflet);
+    const latitude_deg = this.leaflet.getCenter().lat;
     const metres_per_pixel = 1 / pixelsPerMetre(view, latitude_deg);
-    const grid_m = localGridStep_m(view, this.frame);
+    const grid_m = localGridStep_m(view, this.local);
     const known = this.scale.peek();
     if (known?.metres_per_pixel !== metres_per_pixel || known.grid_m !== grid_m) {
       this.scale.value = { metres_per_pixel, grid_m };

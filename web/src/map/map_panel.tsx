@@ -1,43 +1,43 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import type { Store } from "../state/store";
+import type { Station } from "../shell/station";
+import { useShortcuts } from "../shell/shortcuts";
 import { length } from "../units/format";
 import { FleetMap } from "./fleet_map";
 import { niceStep } from "./view";
 
 interface MapPanelProps {
-  store: Store;
+  station: Station;
   freeArea: () => DOMRect;
 }
 
-export function MapPanel({ store, freeArea }: MapPanelProps) {
+export function MapPanel({ station, freeArea }: MapPanelProps) {
   const container = useRef<HTMLDivElement>(null);
   const map = useSignal<FleetMap | null>(null);
 
   useEffect(() => {
     if (container.current === null) return;
-    const made = new FleetMap(container.current, store, freeArea);
+    const made = new FleetMap(container.current, station.store, freeArea);
     map.value = made;
+    station.map.value = made;
     return () => {
-      made.remove();
+      station.map.value = null;
       map.value = null;
+      made.remove();
     };
-  }, [store, freeArea, map]);
+  }, [station, freeArea, map]);
 
-  useEffect(() => {
-    const onKey = (event: KeyboardEvent) => {
-      const typing = event.target instanceof HTMLInputElement || event.target instanceof HTMLTextAreaElement;
-      if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
-      if (event.key === "f") map.value?.fit();
-      else if (event.key === "l") toggleFollow(map.value);
-      else return;
-      event.preventDefault();
-    };
-    document.addEventListener("keydown", onKey);
-    return () => {
-      document.removeEventListener("keydown", onKey);
-    };
-  }, [map]);
+  useShortcuts([
+    { keys: "f", label: "Fit the map to the fleet", group: "Map", run: () => map.value?.fit() },
+    {
+      keys: "l",
+      label: "Follow the fleet",
+      group: "Map",
+      run: () => {
+        toggleFollow(map.value);
+      },
+    },
+  ]);
 
   return (
     <>

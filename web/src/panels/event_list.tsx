@@ -1,4 +1,5 @@
 import type { BusEvent } from "../link/messages";
+import type { PanelProps } from "../shell/panel_list";
 import type { Store } from "../state/store";
 import { clock, utc } from "../units/format";
 import { Lamp } from "./icons";
@@ -6,11 +7,11 @@ import { Lamp } from "./icons";
 const kShown = 60;
 
 /** What the nodes reported, newest first. */
-export function EventList({ store }: { store: Store }) {
+export function EventList({ station }: PanelProps) {
+  const { store } = station;
   const events = store.events.value.slice(0, kShown);
   return (
-    <section class="panel events" aria-labelledby="events-title">
-      <h2 id="events-title">Events</h2>
+    <section class="events" aria-label="Events">
       {events.length === 0 ? (
         <p class="empty">Nothing has been reported.</p>
       ) : (

@@ -1,24 +1,18 @@
-import type { Commands } from "../link/commands";
+import type { PanelProps } from "../shell/panel_list";
 import { kLinkLost } from "../state/fleet";
 import { uavRow, type UavRow } from "../state/rows";
-import type { Store } from "../state/store";
 import { Chain, Lamp, kLevelNames } from "./icons";
 import { UavRowView } from "./uav_row";
 
-interface FormationTableProps {
-  store: Store;
-  commands: Commands;
-}
-
 /** The paper's Formation Information: a row a UAV. */
-export function FormationTable({ store, commands }: FormationTableProps) {
+export function FormationTable({ station }: PanelProps) {
+  const { store, commands } = station;
   const now_ms = store.now_ms.value;
   const vehicles = [...(store.roster.value?.vehicles ?? [])].sort((a, b) => a.id - b.id);
   const rows = vehicles.map((vehicle) => uavRow(store.fleet, vehicle, now_ms));
   return (
-    <section class="panel table-panel" aria-labelledby="table-title">
+    <section class="table-panel" aria-label="Formation information">
       <div class="table-head">
-        <h2 id="table-title">Formation information</h2>
         <Summary rows={rows} />
       </div>
       <div class="table-scroll">

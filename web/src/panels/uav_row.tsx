@@ -13,9 +13,9 @@ interface UavRowProps {
 }
 
 export function UavRowView({ row, store, commands }: UavRowProps) {
-  const selected = store.selected_id.value === row.id;
+  const selected = store.selection.value.has(row.id);
   const select = () => {
-    store.selected_id.value = selected ? null : row.id;
+    store.select(selected ? [] : [row.id]);
   };
   const { error, nearest, tau, motion } = row;
   return (

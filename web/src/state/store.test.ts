@@ -74,7 +74,7 @@ test("a scenario that starts anew clears the old telemetry", () => {
 
 test("the selection goes with the UAV", () => {
   const store = filled(kRoster);
-  store.selected_id.value = 1;
+  store.select([1]);
   store.takeText(JSON.stringify({ ...kRoster, vehicles: [] }));
   expect(store.selected_id.value).toBeNull();
 });

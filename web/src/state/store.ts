@@ -31,7 +31,10 @@ export class Store {
   readonly silent_nodes = signal<readonly string[]>([]);
   /** Newest first. */
   readonly events = signal<readonly BusEvent[]>([]);
-  readonly selected_id = signal<number | null>(null);
+  /** UAVs that are selected, wherever that was done, in the order in which they were. */
+  readonly selection = signal<ReadonlySet<number>>(new Set());
+  /** The one that was selected last; null without any. */
+  readonly selected_id = computed(() => [...this.selection.value].at(-1) ?? null);
   /** The time (performance.now), a few times a second: what goes with time or shows `fleet` reads it, and is drawn again. */
   readonly now_ms = signal(performance.now());
 
@@ -79,6 +82,18 @@ export class Store {
     }
   }
 
+  /** Selects these UAVs and no others. */
+  select(ids: Iterable<number>): void {
+    this.selection.value = new Set(ids);
+  }
+
+  /** Adds a UAV to those that are selected, or takes it out. */
+  toggleSelected(id: number): void {
+    const ids = new Set(this.selection.value);
+    if (!ids.delete(id)) ids.add(id);
+    this.selection.value = ids;
+  }
+
   takeFrame(frame: Frame, now_ms: number): void {
     this.fleet.take(frame, now_ms);
   }
@@ -122,8 +137,9 @@ export class Store {
     const before = this.roster.value;
     if (before !== null && before.start_utime !== roster.start_utime) this.fleet.clear();
     this.roster.value = roster;
-    const selected = this.selected_id.value;
-    if (!roster.vehicles.some((vehicle) => vehicle.id === selected)) this.selected_id.value = null;
+    const known = new Set(roster.vehicles.map((vehicle) => vehicle.id));
+    const kept = [...this.selection.value].filter((id) => known.has(id));
+    if (kept.length !== this.selection.value.size) this.select(kept);
   }
 
   private takeEvent(event: BusEvent): void {

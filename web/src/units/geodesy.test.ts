@@ -32,3 +32,18 @@ test("longitude runs on across the date line", () => {
   expect(at.longitude_deg).toBeCloseTo(360 - 178.753514026827, 9);
   expect(at.latitude_deg).toBeCloseTo(-0.813201828506, 9);
 });
+
+test("a place on the map goes into the local frame and comes back", () => {
+  const frame = localFrame({ latitude_deg: 47.26, longitude_deg: 11.34, altitude_m: 581 });
+  for (const [latitude_deg, longitude_deg, height_m] of [
+    [47.26, 11.34, 581],
+    [47.5, 11.1, 2000],
+    [46.2, 12.9, 0],
+  ] as const) {
+    const { east_m, north_m, up_m } = frame.toEnu(latitude_deg, longitude_deg, height_m);
+    const again = frame.toLatLon(east_m, north_m, up_m);
+    expect(again.latitude_deg).toBeCloseTo(latitude_deg, 9);
+    expect(again.longitude_deg).toBeCloseTo(longitude_deg, 9);
+  }
+  expect(frame.toEnu(47.26, 11.34, 1581).up_m).toBeCloseTo(1000, 6);
+});

@@ -17,9 +17,17 @@ export interface LatLon {
   longitude_deg: number;
 }
 
+export interface Enu {
+  east_m: number;
+  north_m: number;
+  up_m: number;
+}
+
 export interface LocalFrame {
   readonly origin: Origin;
   toLatLon(east_m: number, north_m: number, up_m: number): LatLon;
+  /** @param height_m above the ellipsoid, as the origin's altitude */
+  toEnu(latitude_deg: number, longitude_deg: number, height_m: number): Enu;
 }
 
 export function localFrame(origin: Origin): LocalFrame {
@@ -46,5 +54,20 @@ export function localFrame(origin: Origin): LocalFrame {
     };
   }
 
-  return { origin, toLatLon };
+  function toEnu(latitude_deg: number, longitude_deg: number, height_m: number): Enu {
+    const sin_point = Math.sin(latitude_deg * kRadian);
+    const cos_point = Math.cos(latitude_deg * kRadian);
+    const longitude = (longitude_deg - origin.longitude_deg) * kRadian;
+    const point_normal_m = kA_m / Math.sqrt(1 - kE2 * sin_point * sin_point);
+    const axis_distance_m = (point_normal_m + height_m) * cos_point;
+    const dx_m = axis_distance_m * Math.cos(longitude) - origin_x_m;
+    const dz_m = (point_normal_m * (1 - kE2) + height_m) * sin_point - origin_z_m;
+    return {
+      east_m: axis_distance_m * Math.sin(longitude),
+      north_m: -sin_lat * dx_m + cos_lat * dz_m,
+      up_m: cos_lat * dx_m + sin_lat * dz_m,
+    };
+  }
+
+  return { origin, toLatLon, toEnu };
 }

@@ -1,9 +1,14 @@
 import type { Store } from "../state/store";
-import { theme_choice, type ThemeChoice } from "../state/settings";
+import { Brand } from "../panels/icons";
 import { clock, kNone, utc } from "../units/format";
-import { Brand } from "./icons";
+import { help_open } from "./help";
+import { Icon } from "./icon";
+import type { PanelProps } from "./panel_list";
+import { SettingsMenu } from "./settings_menu";
 
-export function TopBar({ store }: { store: Store }) {
+/** What must always be in sight and in reach. */
+export function TopBar({ station }: PanelProps) {
+  const { store } = station;
   const roster = store.roster.value;
   return (
     <header class="top-bar">
@@ -14,7 +19,18 @@ export function TopBar({ store }: { store: Store }) {
       </span>
       <Clock store={store} />
       <ConnectionPill store={store} />
-      <ThemeSwitch />
+      <SettingsMenu />
+      <button
+        type="button"
+        class="bar-button"
+        aria-label="Keyboard help"
+        title="Keyboard help (?)"
+        onClick={() => {
+          help_open.value = true;
+        }}
+      >
+        <Icon name="help" />
+      </button>
     </header>
   );
 }
@@ -62,31 +78,4 @@ function connectionWord(store: Store, now_ms: number): ["live" | "waiting" | "go
   if (store.busSilence_s(now_ms) !== null) return ["gone", "Bus silent"];
   if (store.fleet.motion === null) return ["waiting", "No fleet yet"];
   return store.silent_nodes.value.length > 0 ? ["gone", "Part of the bus silent"] : ["live", "Live"];
-}
-
-const kThemes: readonly [ThemeChoice, string][] = [
-  ["system", "Auto"],
-  ["light", "Light"],
-  ["dark", "Dark"],
-];
-
-function ThemeSwitch() {
-  return (
-    <div class="segments" role="radiogroup" aria-label="Theme">
-      {kThemes.map(([choice, name]) => (
-        <label key={choice}>
-          <input
-            type="radio"
-            name="theme"
-            value={choice}
-            checked={theme_choice.value === choice}
-            onChange={() => {
-              theme_choice.value = choice;
-            }}
-          />
-          <span>{name}</span>
-        </label>
-      ))}
-    </div>
-  );
 }

@@ -1,0 +1,33 @@
+/** Which panels are open and how large they are: this browser remembers it. */
+import { remembered, within, yesOrNo } from "../state/remembered";
+
+const text = (stored: unknown) => (typeof stored === "string" ? stored : null);
+
+/** The panel in the drawer, "" when it is closed. */
+export const drawer_panel = remembered("layout.drawer", "", text);
+export const drawer_width_px = remembered("layout.drawer_px", 380, within(300, 900));
+
+export const side_open = remembered("layout.side_open", true, yesOrNo);
+export const side_panel = remembered("layout.side", "", text);
+export const side_width_px = remembered("layout.side_px", 320, within(240, 700));
+
+export const dock_open = remembered("layout.dock_open", true, yesOrNo);
+export const dock_panel = remembered("layout.dock", "", text);
+export const dock_height_px = remembered("layout.dock_px", 216, within(120, 1400));
+
+/** Opens a panel in the drawer, or closes it when it is open. */
+export function toggleDrawer(id: string): void {
+  drawer_panel.value = drawer_panel.value === id ? "" : id;
+}
+
+/** Shows a panel of the side column. */
+export function showSide(id: string): void {
+  side_panel.value = id;
+  side_open.value = true;
+}
+
+/** Shows a panel of the dock. */
+export function showDock(id: string): void {
+  dock_panel.value = id;
+  dock_open.value = true;
+}

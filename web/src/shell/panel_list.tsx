@@ -1,0 +1,31 @@
+/** All panels of the page, one entry each. A new panel is a new line here. */
+import type { ComponentType } from "preact";
+import { EventList } from "../panels/event_list";
+import { FormationTable } from "../panels/formation_table";
+import type { IconName } from "./icon";
+import type { Station } from "./station";
+
+export interface PanelProps {
+  station: Station;
+}
+
+export interface PanelSpec {
+  id: string;
+  title: string;
+  view: ComponentType<PanelProps>;
+}
+
+export interface DrawerSpec extends PanelSpec {
+  icon: IconName;
+  /** Opens and closes it. */
+  shortcut: string;
+}
+
+/** Tools, one open at a time, in the drawer on the left. */
+export const kDrawerPanels: readonly DrawerSpec[] = [];
+
+/** Beside the map on the right. */
+export const kSidePanels: readonly PanelSpec[] = [{ id: "events", title: "Events", view: EventList }];
+
+/** Below the map. */
+export const kDockPanels: readonly PanelSpec[] = [{ id: "table", title: "Formation", view: FormationTable }];

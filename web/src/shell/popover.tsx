@@ -1,0 +1,60 @@
+import { useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useId, useRef } from "preact/hooks";
+
+interface PopoverProps {
+  label: string;
+  /** What the button shows. */
+  button: ComponentChildren;
+  class?: string;
+  children: ComponentChildren;
+}
+
+/** A button with a small panel below it, closed by Escape, a press outside, or leaving it with the keyboard. */
+export function Popover({ label, button, children, ...props }: PopoverProps) {
+  const open = useSignal(false);
+  const root = useRef<HTMLDivElement>(null);
+  const id = useId();
+  useEffect(() => {
+    if (!open.value) return;
+    const close = (event: Event) => {
+      if (event.target instanceof Node && root.current?.contains(event.target)) return;
+      open.value = false;
+    };
+    document.addEventListener("pointerdown", close);
+    document.addEventListener("focusin", close);
+    return () => {
+      document.removeEventListener("pointerdown", close);
+      document.removeEventListener("focusin", close);
+    };
+  }, [open, open.value]);
+  const press = (event: KeyboardEvent) => {
+    if (event.key !== "Escape" || !open.value) return;
+    event.preventDefault();
+    event.stopPropagation();
+    open.value = false;
+    root.current?.querySelector("button")?.focus();
+  };
+  return (
+    <div class="popover" ref={root} onKeyDown={press}>
+      <button
+        type="button"
+        class={props.class ?? "bar-button"}
+        aria-label={label}
+        title={label}
+        aria-expanded={open.value}
+        aria-controls={id}
+        onClick={() => {
+          open.value = !open.value;
+        }}
+      >
+        {button}
+      </button>
+      {open.value && (
+        <section class="panel popover-panel" id={id} aria-label={label}>
+          {children}
+        </section>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,37 @@
+import { useCallback, useEffect, useRef } from "preact/hooks";
+import { MapPanel } from "../map/map_panel";
+import { FirstRun } from "../panels/first_run";
+import { LinkBanner } from "../panels/link_banner";
+import { ModeCards } from "../panels/mode_cards";
+import { Dock, Drawer, Rail, SideColumn } from "./docks";
+import { Help } from "./help";
+import type { PanelProps } from "./panel_list";
+import { listenForShortcuts } from "./shortcuts";
+import { TopBar } from "./top_bar";
+
+/** One screen: the map under everything, panels around it. The part that no panel covers is the map's free area. */
+export function Shell({ station }: PanelProps) {
+  const { store } = station;
+  const free = useRef<HTMLDivElement>(null);
+  const freeArea = useCallback(() => free.current?.getBoundingClientRect() ?? new DOMRect(), []);
+  useEffect(listenForShortcuts, []);
+  const stale = store.isStale(store.now_ms.value) && store.fleet.motion !== null;
+  return (
+    <main class={stale ? "app stale" : "app"}>
+      <TopBar station={station} />
+      <Rail />
+      <Drawer station={station} />
+      <div class="middle">
+        <MapPanel station={station} freeArea={freeArea} />
+        <ModeCards store={store} />
+        <div class="free" ref={free}>
+          <LinkBanner store={store} retry={station.retry} />
+          <FirstRun store={store} />
+        </div>
+      </div>
+      <SideColumn station={station} />
+      <Dock station={station} />
+      <Help />
+    </main>
+  );
+}

@@ -1,0 +1,76 @@
+/** Keyboard shortcuts of the whole page, so that the help can list them. */
+import { signal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+
+export interface Shortcut {
+  /** As in KeyboardEvent.key, with modifiers before it: "f", "?", "Shift+A", "Ctrl+Shift+z", "Escape". */
+  keys: string;
+  /** What it does, for the help. */
+  label: string;
+  /** Heading in the help. */
+  group: string;
+  run: () => void;
+}
+
+/** Those that are in force now. Of two with the same keys, the later one counts: that of the panel opened last. */
+export const shortcuts = signal<readonly Shortcut[]>([]);
+
+/** Adds shortcuts; what is returned takes them away. */
+export function addShortcuts(added: readonly Shortcut[]): () => void {
+  shortcuts.value = [...shortcuts.peek(), ...added];
+  return () => {
+    shortcuts.value = shortcuts.peek().filter((shortcut) => !added.includes(shortcut));
+  };
+}
+
+/** Shortcuts for as long as a component is shown. `run` may change with each drawing; keys and labels may not. */
+export function useShortcuts(wanted: readonly Shortcut[]): void {
+  const newest = useRef(wanted);
+  newest.current = wanted;
+  useEffect(
+    () =>
+      addShortcuts(
+        newest.current.map((shortcut, i) => ({ ...shortcut, run: () => newest.current[i]?.run() })),
+      ),
+    [],
+  );
+}
+
+/** "Ctrl+Shift+z" for a key press. Shift is told for letters and named keys; "?" already says it. Meta counts as Ctrl. */
+export function keysOf(
+  event: Pick<KeyboardEvent, "key" | "ctrlKey" | "metaKey" | "altKey" | "shiftKey">,
+): string {
+  const letter = /^[a-z]$/i.test(event.key);
+  const modifiers = [
+    event.ctrlKey || event.metaKey ? "Ctrl" : "",
+    event.altKey ? "Alt" : "",
+    event.shiftKey && (letter || event.key.length > 1) ? "Shift" : "",
+  ].filter(Boolean);
+  const key = letter ? event.key.toLowerCase() : event.key === " " ? "Space" : event.key;
+  return [...modifiers, key].join("+");
+}
+
+/** Letters are for typing while a field has the focus; Ctrl combinations there belong to the field as well. */
+function typing(target: EventTarget | null): boolean {
+  if (!(target instanceof HTMLElement)) return false;
+  if (target instanceof HTMLInputElement)
+    return !["checkbox", "radio", "range", "button"].includes(target.type);
+  return (
+    target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement || target.isContentEditable
+  );
+}
+
+export function listenForShortcuts(): () => void {
+  const onKey = (event: KeyboardEvent) => {
+    if (event.defaultPrevented || typing(event.target)) return;
+    const keys = keysOf(event);
+    const shortcut = shortcuts.peek().findLast((one) => one.keys.toLowerCase() === keys.toLowerCase());
+    if (shortcut === undefined) return;
+    event.preventDefault();
+    shortcut.run();
+  };
+  document.addEventListener("keydown", onKey);
+  return () => {
+    document.removeEventListener("keydown", onKey);
+  };
+}

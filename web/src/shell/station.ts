@@ -1,0 +1,16 @@
+/** What every panel is given. */
+import type { Signal } from "@preact/signals";
+import type { Api } from "../link/api";
+import type { Commands } from "../link/commands";
+import type { MapAccess } from "../map/map_access";
+import type { Store } from "../state/store";
+
+export interface Station {
+  readonly store: Store;
+  readonly commands: Commands;
+  readonly api: Api;
+  /** Null until the map is there. */
+  readonly map: Signal<MapAccess | null>;
+  /** Tries to connect at once. */
+  readonly retry: () => void;
+}

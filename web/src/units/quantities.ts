@@ -1,0 +1,59 @@
+/** Quantities in the units that the person has chosen. SI in, text out, and back from what was typed. */
+import { altitude_unit, distance_unit, speed_unit } from "../state/settings";
+import { fixed } from "./format";
+
+const kFoot_m = 0.3048;
+const kKnot_m_s = 1852 / 3600;
+
+const kLengths = { m: 1, ft: kFoot_m } as const;
+const kSpeeds = { "m/s": 1, "km/h": 1 / 3.6, kt: kKnot_m_s } as const;
+
+export interface Quantity {
+  /** "ft": changes with the person's choice; whoever shows it is drawn again. */
+  unit(): string;
+  /** From SI into the chosen unit. */
+  value(si: number): number;
+  /** The number alone, for a column whose head names the unit. */
+  text(si: number, decimals?: number): string;
+  /** Number and unit. */
+  full(si: number, decimals?: number): string;
+  /** From the chosen unit into SI. */
+  toSi(value: number): number;
+}
+
+function quantity(unit: () => string, si_per_unit: () => number): Quantity {
+  const value = (si: number) => si / si_per_unit();
+  const text = (si: number, decimals = 0) => fixed(value(si), decimals);
+  return {
+    unit,
+    value,
+    text,
+    full: (si, decimals = 0) => `${text(si, decimals)} ${unit()}`,
+    toSi: (shown) => shown * si_per_unit(),
+  };
+}
+
+/** Horizontal distances and errors. */
+export const distance = quantity(
+  () => distance_unit.value,
+  () => kLengths[distance_unit.value],
+);
+
+/** Altitudes above the local origin ("ENU") and vertical distances. */
+export const altitude = quantity(
+  () => altitude_unit.value,
+  () => kLengths[altitude_unit.value],
+);
+
+export const speed = quantity(
+  () => speed_unit.value,
+  () => kSpeeds[speed_unit.value],
+);
+
+/** Every altitude is told with what it is measured from: the origin of the local frame. */
+export const kAltitudeReference = "ENU";
+
+/** An altitude with unit and reference: "1000 m ENU". */
+export function altitudeAbove(up_m: number, decimals = 0): string {
+  return `${altitude.full(up_m, decimals)} ${kAltitudeReference}`;
+}
