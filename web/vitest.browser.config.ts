@@ -18,8 +18,8 @@ export default defineConfig({
     environment: "node",
     testTimeout: 120_000,
     hookTimeout: 60_000,
-    // All use one bus and one port.
-    fileParallelism: false,
+    // They mostly wait for UAVs to fly, so two at a time suit two cores.
+    maxWorkers: 2,
     // The tests of a file are the steps of one flight: after a failure the next ones can only fail too.
     bail: 1,
   },
