@@ -59,6 +59,8 @@ export interface Waypoint {
   north_m: number;
   up_m: number;
   speed_m_s: number;
+  /** 0: the smallest that all can fly in comfort. */
+  turn_radius_m: number;
 }
 
 export interface Path {
@@ -144,6 +146,7 @@ export type ServerMessage =
 export interface CommandBodies {
   CMD_LINK: { vehicle_id: number; mode: "up" | "silent" };
   CMD_PAYLOAD: { vehicle_ids: number[]; on: boolean };
+  CMD_PATH: { formation_id: number; closed: boolean; waypoints: readonly Waypoint[] };
 }
 
 export type CommandChannel = keyof CommandBodies;
