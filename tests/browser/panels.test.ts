@@ -1,0 +1,106 @@
+/** Every panel in every size and theme: nothing is cut off, nobody is kept out, and there is a picture to look at. */
+import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { Screen } from "./screen";
+import { Station } from "./station";
+
+const kSizes = [
+  [1280, 720],
+  [1920, 1080],
+] as const;
+const kThemes = ["dark", "light"] as const;
+
+const station = new Station({ scenario: "panels.json" });
+let screen: Screen;
+
+beforeAll(async () => {
+  station.start();
+  await station.answers();
+  screen = await Screen.open();
+});
+
+afterAll(async () => {
+  await screen?.close();
+  await station.stopAll();
+});
+
+/** Names of the tabs of a list, or of the buttons of the rail. */
+const namesOf = (selector: string) => screen.page.locator(selector).allInnerTexts();
+
+/** What sticks out of the window, or out of a panel that doesn't scroll sideways. */
+function overflow(): Promise<string[]> {
+  return screen.page.evaluate(() => {
+    const root = document.documentElement;
+    const out = root.scrollWidth > innerWidth || root.scrollHeight > innerHeight ? ["page"] : [];
+    for (const body of document.querySelectorAll(".drawer-body, .side-body, .top-bar, .rail")) {
+      if (body.scrollWidth > body.clientWidth) out.push(body.className);
+    }
+    return out;
+  });
+}
+
+async function lookAt(name: string): Promise<void> {
+  onTestFailed(() => {
+    process.stderr.write(`${station.log()}\n`);
+  });
+  for (const theme of kThemes) {
+    for (const [width, height] of kSizes) {
+      await screen.picture(`panel-${name.toLowerCase()}`, width, height, theme);
+      expect(await overflow(), `${name} at ${width}x${height}`).toEqual([]);
+    }
+    expect(await screen.barriers(), `${name}, ${theme}`).toEqual([]);
+  }
+}
+
+test("the fleet is there, with a warning and a lost link", async () => {
+  await vi.waitFor(
+    async () => {
+      expect(await screen.text(".pill")).toBe("Live");
+      expect(await screen.text(".summary")).toContain("warning");
+      expect(await screen.text(".summary")).toContain("link lost");
+    },
+    { timeout: 30_000, interval: 100 },
+  );
+});
+
+test("each tool in the drawer", async () => {
+  for (const name of await namesOf(".rail-button")) {
+    await screen.button(name).click();
+    await screen.page.locator(".drawer", { hasText: name }).waitFor();
+    await lookAt(name);
+    await screen.page.getByRole("button", { name: `Close ${name}` }).click();
+  }
+});
+
+test("each tab beside and below the map", async () => {
+  for (const place of [".side", ".dock"]) {
+    for (const name of await namesOf(`${place} [role=tab]`)) {
+      await screen.page.locator(`${place} [role=tab]`, { hasText: name }).click();
+      await lookAt(name);
+    }
+  }
+});
+
+test("settings and help", async () => {
+  await screen.button("Settings").click();
+  await lookAt("Settings");
+  await screen.page.keyboard.press("Escape");
+  await screen.button("Keyboard help").click();
+  await screen.page.locator("dialog.help[open]").waitFor();
+  await lookAt("Help");
+  await screen.page.keyboard.press("Escape");
+});
+
+test("on a tablet, upright or not, nothing is out of reach", async () => {
+  for (const [width, height] of [
+    [1180, 820],
+    [820, 1180],
+  ] as const) {
+    await screen.picture("tablet", width, height, "light");
+    expect(await overflow()).toEqual([]);
+  }
+});
+
+test("nothing was complained of, and no request left this machine", () => {
+  expect(screen.complaints).toEqual([]);
+  expect(screen.strangers).toEqual([]);
+});
