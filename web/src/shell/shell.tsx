@@ -22,11 +22,13 @@ export function Shell({ station }: PanelProps) {
       <Rail />
       <Drawer station={station} />
       <div class="middle">
-        <MapPanel station={station} freeArea={freeArea} />
-        <ModeCards store={store} />
-        <div class="free" ref={free}>
-          <LinkBanner store={store} retry={station.retry} />
-          <FirstRun store={store} />
+        <div class="over-map">
+          <MapPanel station={station} freeArea={freeArea} />
+          <ModeCards store={store} />
+          <div class="free" ref={free}>
+            <LinkBanner store={store} retry={station.retry} />
+            <FirstRun store={store} />
+          </div>
         </div>
       </div>
       <SideColumn station={station} />
