@@ -38,15 +38,34 @@ export interface Slot {
   up_m: number;
 }
 
-export interface Formation {
-  type: "formation";
+export interface Parameter {
+  name: string;
+  value: number;
+}
+
+/** What CMD_FORMATION applies. */
+export interface FormationBody {
   formation_id: number;
   name: string;
   control: string;
   shape: string;
+  /** 0 when the shape is custom. */
   spacing_m: number;
+  lead_m: number;
+  radius_m: number;
+  height_m: number;
+  d_mod_m: number;
+  advisory_tau_s: number;
+  caution_tau_s: number;
   hold: boolean;
+  /** Gains that differ from the control's preset. */
+  parameters: Parameter[];
   slots: Slot[];
+}
+
+export interface Formation extends FormationBody {
+  type: "formation";
+  utime: number;
 }
 
 export interface FormationRemoved {
@@ -95,6 +114,7 @@ export interface FormationStatus {
   leader_up_m: number;
   leader_speed_m_s: number;
   leader_course_rad: number;
+  avoidance_up_m: number;
   slots: SlotStatus[];
 }
 
@@ -147,6 +167,9 @@ export interface CommandBodies {
   CMD_LINK: { vehicle_id: number; mode: "up" | "silent" };
   CMD_PAYLOAD: { vehicle_ids: number[]; on: boolean };
   CMD_PATH: { formation_id: number; closed: boolean; waypoints: readonly Waypoint[] };
+  CMD_FORMATION:
+    | { action: "apply"; formation: FormationBody }
+    | { action: "hold" | "resume" | "remove"; formation: { formation_id: number } };
 }
 
 export type CommandChannel = keyof CommandBodies;
