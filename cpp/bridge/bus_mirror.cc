@@ -193,7 +193,8 @@ Json BusMirror::Hello() const {
           {"lcm_url", hello_.lcm_url},
           {"utime", Now()},
           {"tile_url", hello_.tile_url.empty() ? Json() : Json(hello_.tile_url)},
-          {"tile_attribution", hello_.tile_attribution}};
+          {"tile_attribution", hello_.tile_attribution},
+          {"tiles", hello_.tiles}};
 }
 
 Json BusMirror::Silent() const { return {{"type", "bus"}, {"nodes_silent", silent_}}; }

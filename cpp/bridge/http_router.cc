@@ -1,6 +1,9 @@
 #include "bridge/http_router.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+
+#include "bridge/byte_range.h"
 
 namespace skein::bridge {
 namespace {
@@ -10,6 +13,11 @@ using http::field;
 using http::status;
 
 constexpr std::string_view kJson = "application/json";
+constexpr std::string_view kTiles = "/tiles/";
+constexpr std::string_view kTileArchive = "/tiles.pmtiles";
+
+// A reader of PMTiles asks for kilobytes; more than this is sent to nobody at once.
+constexpr std::uint64_t kMaxPartBytes = 4u << 20;
 
 std::string_view View(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -47,6 +55,7 @@ std::string ResultJson(const CommandResult& result) {
 HttpRouter::HttpRouter(const RouterOptions& options, Backend backend)
     : access_(options.allowed_hosts),
       files_(options.web_folder),
+      tiles_(options.tiles),
       content_security_policy_(ContentSecurityPolicy(options.tile_url)),
       backend_(std::move(backend)) {}
 
@@ -96,8 +105,12 @@ void HttpRouter::Answer(const HttpRequest& request, std::function<void(HttpRespo
     Command(request, std::move(respond));
   } else if (path.starts_with("/api/")) {
     respond(Plain(status::not_found, "The API has /api/state, /api/vehicles and /api/command."));
+  } else if (path.starts_with(kTiles)) {
+    respond(Tile(request));
+  } else if (path == kTileArchive) {
+    respond(TileArchive(request));
   } else {
-    respond(File(request));
+    respond(File(request, files_.Find(View(request.target()))));
   }
 }
 
@@ -120,8 +133,7 @@ HttpResponse HttpRouter::Make(status status, std::string_view mime_type, std::st
   return response;
 }
 
-HttpResponse HttpRouter::File(const HttpRequest& request) const {
-  auto file = files_.Find(View(request.target()));
+HttpResponse HttpRouter::File(const HttpRequest& request, std::optional<StaticFile> file) const {
   if (!file) return Plain(status::not_found, "There is no such file.");
   const bool known = View(request[field::if_none_match]) == file->etag;
   HttpResponse response = Make(known ? status::not_modified : status::ok, file->mime_type,
@@ -130,6 +142,50 @@ HttpResponse HttpRouter::File(const HttpRequest& request) const {
   response.set(field::etag, file->etag);
   if (known) response.erase(field::content_length);
   return response;
+}
+
+HttpResponse HttpRouter::Tile(const HttpRequest& request) const {
+  if (!tiles_) return Plain(status::not_found, "This web-bridge was started without --tiles.");
+  auto tile = tiles_->Tile(Path(request).substr(kTiles.size()));
+  if (tile) return File(request, std::move(tile));
+  // A map has edges and holes: no fault, and nothing that a browser should complain of.
+  HttpResponse response = Plain(status::no_content, "");
+  response.body().clear();
+  response.erase(field::content_length);
+  return response;
+}
+
+HttpResponse HttpRouter::TileArchive(const HttpRequest& request) const {
+  const auto archive = tiles_ ? tiles_->FindArchive() : std::nullopt;
+  if (!archive) return Plain(status::not_found, "This web-bridge serves no PMTiles file.");
+  // A range of another version than the one that is here now is no use to anybody.
+  const std::string_view if_range = View(request[field::if_range]);
+  const bool same_version = if_range.empty() || if_range == archive->etag;
+  ByteRange range = ParseByteRange(same_version ? View(request[field::range]) : "", archive->size);
+  const auto finish = [&](HttpResponse response) {
+    response.set(field::accept_ranges, "bytes");
+    response.set(field::etag, archive->etag);
+    return response;
+  };
+  const std::string size = std::to_string(archive->size);
+  if (range.kind == ByteRange::Kind::kBeyond) {
+    HttpResponse response = Plain(status::range_not_satisfiable, "The file has " + size + " bytes.");
+    response.set(field::content_range, "bytes */" + size);
+    return finish(std::move(response));
+  }
+  const bool part = range.kind == ByteRange::Kind::kPart;
+  if (!part) range.length = archive->size;
+  if (!part && range.length > kMaxPartBytes)
+    return finish(Plain(status::bad_request, "It is large: ask for parts of it, with a Range header."));
+  // RFC 9110, 14.2: a server may send the beginning of the part, and wait to be asked for the rest.
+  std::string bytes = tiles_->ReadArchive(range.first, std::min(range.length, kMaxPartBytes));
+  if (part && bytes.empty()) return Plain(status::not_found, "The file has just become shorter.");
+  const std::string last = std::to_string(range.first + bytes.size() - 1);
+  HttpResponse response =
+      Make(part ? status::partial_content : status::ok, "application/vnd.pmtiles", std::move(bytes));
+  if (part)
+    response.set(field::content_range, "bytes " + std::to_string(range.first) + "-" + last + "/" + size);
+  return finish(std::move(response));
 }
 
 void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {

@@ -12,6 +12,7 @@
 
 #include "bridge/access_rules.h"
 #include "bridge/backend.h"
+#include "bridge/map_tiles.h"
 #include "bridge/static_files.h"
 
 namespace skein::bridge {
@@ -23,7 +24,8 @@ using HttpHead = boost::beast::http::request_header<>;
 struct RouterOptions {
   std::filesystem::path web_folder;
   std::vector<std::string> allowed_hosts;
-  std::string tile_url;  ///< "": none
+  std::string tile_url;           ///< "": none
+  std::optional<MapTiles> tiles;  ///< the operator's own map
 };
 
 /// Answers HTTP requests: the page, the JSON API, and why not.
@@ -44,11 +46,14 @@ class HttpRouter {
 
  private:
   HttpResponse Make(boost::beast::http::status status, std::string_view mime_type, std::string body) const;
-  HttpResponse File(const HttpRequest& request) const;
+  HttpResponse File(const HttpRequest& request, std::optional<StaticFile> file) const;
+  HttpResponse Tile(const HttpRequest& request) const;
+  HttpResponse TileArchive(const HttpRequest& request) const;
   void Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
 
   AccessRules access_;
   StaticFiles files_;
+  std::optional<MapTiles> tiles_;
   std::string content_security_policy_;
   Backend backend_;
 };

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   bridge::BridgeOptions options;
   options.web_folder = bridge::DefaultWebFolder(std::filesystem::read_symlink("/proc/self/exe"));
   std::string web_folder;
+  std::string tiles;
   node.app()
       .add_option("--listen", options.listen,
                   "Address to listen on: anybody who reaches it may command the fleet")
@@ -32,6 +33,11 @@ int main(int argc, char** argv) {
       .add_option("--tile-url", options.hello.tile_url,
                   "Map tiles over the offline map, such as https://tile.openstreetmap.org/{z}/{x}/{y}.png")
       ->check([](const std::string& url) { return bridge::TileUrlProblem(url); });
+  node.app()
+      .add_option(
+          "--tiles", tiles,
+          "Your own map, with no internet: a folder of raster tiles {z}/{x}/{y}.png, or a PMTiles file")
+      ->check(CLI::ExistingPath);
   node.app().add_option("--tile-attribution", options.hello.tile_attribution,
                         "What the map must say of its tiles");
   return node.Run(argc, argv, [&](skein::bus::Bus& bus, skein::bus::LiveExecutor& executor) {
@@ -40,6 +46,10 @@ int main(int argc, char** argv) {
       if (!std::filesystem::exists(options.web_folder / "index.html")) {
         throw std::runtime_error("--web " + web_folder + ": holds no index.html");
       }
+    }
+    if (!tiles.empty()) {
+      options.tiles.emplace(tiles);
+      options.hello.tiles = options.tiles->Description();
     }
     options.hello.version = SKEIN_VERSION;
     options.hello.lcm_url = node.lcm_url();

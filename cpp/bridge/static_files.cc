@@ -23,7 +23,7 @@ cd web &amp;&amp; npm ci &amp;&amp; npm run build</pre>
 The state of the fleet is at <a href="/api/state">/api/state</a>.</p></body></html>
 )";
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kMimeTypes{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 17> kMimeTypes{{
     {".html", "text/html; charset=utf-8"},
     {".js", "text/javascript; charset=utf-8"},
     {".mjs", "text/javascript; charset=utf-8"},
@@ -35,6 +35,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 16> kMimeTyp
     {".svg", "image/svg+xml"},
     {".png", "image/png"},
     {".jpg", "image/jpeg"},
+    {".jpeg", "image/jpeg"},
     {".webp", "image/webp"},
     {".ico", "image/x-icon"},
     {".woff2", "font/woff2"},
@@ -71,25 +72,20 @@ std::optional<std::string> DecodedPath(std::string_view target) {
   return path.substr(1);
 }
 
+}  // namespace
+
 std::string EntityTag(const fs::path& file, std::uintmax_t size) {
   std::error_code error;
   const auto changed = fs::last_write_time(file, error).time_since_epoch().count();
   return "\"" + std::to_string(size) + "-" + std::to_string(changed) + "\"";
 }
 
-}  // namespace
-
-std::optional<StaticFile> StaticFiles::Find(std::string_view target) const {
-  auto path = DecodedPath(target);
-  if (!path) return std::nullopt;
-  if (!fs::path(*path).has_extension()) path = "index.html";
+std::optional<StaticFile> ReadInside(const fs::path& folder, const fs::path& name,
+                                     std::string_view cache_control) {
   std::error_code error;
-  const fs::path root = fs::canonical(folder_, error);
-  const fs::path file = error ? fs::path() : fs::canonical(root / *path, error);
-  if (error || !fs::is_regular_file(file, error)) {
-    if (*path != "index.html") return std::nullopt;
-    return StaticFile{std::string(kNotBuiltPage), "text/html; charset=utf-8", "no-store", "\"not-built\""};
-  }
+  const fs::path root = fs::canonical(folder, error);
+  const fs::path file = error ? fs::path() : fs::canonical(root / name, error);
+  if (error || !fs::is_regular_file(file, error)) return std::nullopt;
   // A symbolic link may have led out of the folder.
   if (std::ranges::mismatch(root, file).in1 != root.end()) return std::nullopt;
   const std::uintmax_t size = fs::file_size(file, error);
@@ -98,10 +94,20 @@ std::optional<StaticFile> StaticFiles::Find(std::string_view target) const {
   std::string content(size, '\0');
   stream.read(content.data(), static_cast<std::streamsize>(size));
   content.resize(static_cast<std::size_t>(stream.gcount()));
+  return StaticFile{std::move(content), MimeType(file), cache_control, EntityTag(file, size)};
+}
+
+std::optional<StaticFile> StaticFiles::Find(std::string_view target) const {
+  auto path = DecodedPath(target);
+  if (!path) return std::nullopt;
+  if (!fs::path(*path).has_extension()) path = "index.html";
   // The build gives files in assets/ a name with a hash of what they hold.
   const bool hashed = path->starts_with("assets/");
-  return StaticFile{std::move(content), MimeType(file),
-                    hashed ? "public, max-age=31536000, immutable" : "no-cache", EntityTag(file, size)};
+  auto file = ReadInside(folder_, *path, hashed ? "public, max-age=31536000, immutable" : "no-cache");
+  std::error_code error;
+  if (!file && *path == "index.html" && !fs::exists(folder_ / *path, error))
+    return StaticFile{std::string(kNotBuiltPage), "text/html; charset=utf-8", "no-store", "\"not-built\""};
+  return file;
 }
 
 std::filesystem::path DefaultWebFolder(const std::filesystem::path& executable) {

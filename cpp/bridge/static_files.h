@@ -30,6 +30,14 @@ class StaticFiles {
   std::filesystem::path folder_;
 };
 
+/// A file under a folder (both as they are on disk); none when it is missing, too large to be sent whole, or
+/// a symbolic link leads out of the folder.
+std::optional<StaticFile> ReadInside(const std::filesystem::path& folder, const std::filesystem::path& name,
+                                     std::string_view cache_control);
+
+/// Changes whenever the file does.
+std::string EntityTag(const std::filesystem::path& file, std::uintmax_t size);
+
 /// Where the built web app is: beside the build tree (build/bin/../../web/dist) or installed
 /// (bin/../share/skein/web).
 std::filesystem::path DefaultWebFolder(const std::filesystem::path& executable);

@@ -11,7 +11,8 @@ WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOpt
               }),
       gateway_(bus),
       server_(web_context_, options.listen, options.port,
-              {options.web_folder, options.allowed_hosts, options.hello.tile_url}, MakeBackend(executor)),
+              {options.web_folder, options.allowed_hosts, options.hello.tile_url, options.tiles},
+              MakeBackend(executor)),
       port_(server_.port()),
       web_thread_([this] { web_context_.run(); }) {}
 

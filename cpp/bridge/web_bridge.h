@@ -6,12 +6,14 @@
 #include <boost/asio/io_context.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "bridge/bus_mirror.h"
 #include "bridge/command_gateway.h"
+#include "bridge/map_tiles.h"
 #include "bridge/web_server.h"
 #include "bus/live_executor.h"
 
@@ -22,6 +24,7 @@ struct BridgeOptions {
   std::uint16_t port = 8080;  ///< 0: any that is free
   std::filesystem::path web_folder;
   std::vector<std::string> allowed_hosts;
+  std::optional<MapTiles> tiles;
   HelloInfo hello;
 };
 

@@ -103,6 +103,7 @@ class Flight:
         self.route = multicast_route.Route(options.lcm_url, say)
         binaries = options.root / "build" / "bin"
         scenario = ["--scenario", str(options.scenario)]
+        tiles = ["--tiles", str(options.tiles)] if options.tiles else []
 
         def node(program, *arguments):
             command = [str(binaries / program), "--lcm-url", options.lcm_url, *arguments]
@@ -110,7 +111,7 @@ class Flight:
 
         self.recorder = Process("lcm-logger", self.record_command, self.folder / "lcm-logger.txt")
         self.nodes = [
-            node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist")),
+            node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist"), *tiles),
             node("collision-monitor", *scenario),
             node("formation-controller", *scenario, "--state-file", str(self.folder / "formation-controller.state")),
             node("fleet-simulator", *scenario),
@@ -183,6 +184,7 @@ def main():
     parser.add_argument("--scenario", type=pathlib.Path, required=True)
     parser.add_argument("--port", type=int, required=True)
     parser.add_argument("--lcm-url", required=True)
+    parser.add_argument("--tiles", type=pathlib.Path)
     options = parser.parse_args()
 
     flight = Flight(options)
