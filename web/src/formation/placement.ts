@@ -151,7 +151,7 @@ export function leaderOf(status: FormationStatus, ahead_s: number): Leader {
   };
 }
 
-/** How a formation that is flown places its slots. */
+/** How a formation places its slots: along its path, where it flies one and its control follows it. */
 export function placingOf(
   control: Control,
   leader: Leader,

@@ -1,0 +1,100 @@
+/** A draft flown ahead by the bridge, from the state of now and by the code that will fly it. */
+import { signal, type ReadonlySignal } from "@preact/signals";
+import { ApiError, type Api } from "../link/api";
+import { bodyOf, type Draft } from "./draft";
+
+/** Answer to POST /api/preview/formation (cpp/bridge/README.md). */
+export interface FormationPreview {
+  /** False: the station would refuse it, and `reason` tells why. */
+  ok: boolean;
+  reason: string;
+  duration_s: number;
+  /** The nearest that two UAVs come, null: there are no two. */
+  least: Least | null;
+  /** Null: not within the time that was flown. */
+  settle_s: number | null;
+  /** Where UAVs fly at the limit of their envelope. */
+  limits: LimitReached[];
+  tracks: Track[];
+}
+
+export interface Least {
+  horizontal_m: number;
+  vertical_m: number;
+  t_s: number;
+  ids: [number, number];
+  inside_cylinder: boolean;
+}
+
+export interface LimitReached {
+  vehicle_id: number;
+  limit: string;
+  t_s: number;
+  seconds: number;
+}
+
+export interface Track {
+  id: number;
+  /** [t_s, east_m, north_m, up_m]. */
+  points: [number, number, number, number][];
+}
+
+export type PreviewState =
+  | { kind: "none" }
+  | { kind: "waiting" }
+  | { kind: "running"; since_ms: number }
+  | { kind: "done"; result: FormationPreview; at_ms: number }
+  | { kind: "failed"; reason: string };
+
+/** Edits have settled after this long. */
+const kSettled_ms = 500;
+
+export class Preview {
+  private readonly now = signal<PreviewState>({ kind: "none" });
+  readonly state: ReadonlySignal<PreviewState> = this.now;
+  private wanted: Draft | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private request = new AbortController();
+
+  constructor(private readonly api: Pick<Api, "postJson">) {}
+
+  /** Flies this draft as soon as no other one is wanted for a moment; what was flown of an earlier one is gone. */
+  want(draft: Draft, delay_ms = kSettled_ms): void {
+    if (draft === this.wanted) return;
+    this.clear();
+    this.wanted = draft;
+    this.now.value = { kind: "waiting" };
+    this.timer = setTimeout(() => {
+      void this.fly(draft);
+    }, delay_ms);
+  }
+
+  /** Flies the same draft from the state of now. */
+  again(): void {
+    const draft = this.wanted;
+    this.wanted = null;
+    if (draft !== null) this.want(draft, 0);
+  }
+
+  clear(): void {
+    clearTimeout(this.timer);
+    this.request.abort();
+    this.wanted = null;
+    this.now.value = { kind: "none" };
+  }
+
+  private async fly(draft: Draft): Promise<void> {
+    const request = new AbortController();
+    this.request = request;
+    this.now.value = { kind: "running", since_ms: performance.now() };
+    try {
+      const body = { formation: bodyOf(draft) };
+      const result = await this.api.postJson<FormationPreview>("api/preview/formation", body, request.signal);
+      if (!request.signal.aborted) this.now.value = { kind: "done", result, at_ms: performance.now() };
+    } catch (error) {
+      if (request.signal.aborted) return;
+      if (!(error instanceof ApiError)) throw error;
+      this.now.value = { kind: "failed", reason: error.message };
+    }
+  }
+}
