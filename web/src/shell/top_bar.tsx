@@ -1,3 +1,4 @@
+import { HoldControl } from "../formation/hold_control";
 import type { Store } from "../state/store";
 import { Brand } from "../panels/icons";
 import { clock, kNone, utc } from "../units/format";
@@ -18,6 +19,7 @@ export function TopBar({ station }: PanelProps) {
         {roster?.scenario ?? ""}
       </span>
       <Clock store={store} />
+      <HoldControl station={station} />
       <ConnectionPill store={store} />
       <SettingsMenu />
       <button
