@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bridge/command_gateway.h"
+#include "bridge/history.h"
 #include "bridge/live_frame.h"
 
 namespace skein::bridge {
@@ -21,6 +22,8 @@ struct Backend {
   /// The JSON of GET /api/state and of GET /api/vehicles.
   std::function<void(Reply<std::string>)> state;
   std::function<void(Reply<std::string>)> vehicles;
+  /// The bytes of GET /api/history.
+  std::function<void(HistoryQuery, Reply<std::string>)> history;
   std::function<void(std::string channel, nlohmann::json body, Reply<CommandResult>)> command;
 };
 

@@ -16,6 +16,7 @@ struct FrameTime {
 
 inline constexpr unsigned char kMotionKind = 1;
 inline constexpr unsigned char kStatusKind = 2;
+inline constexpr unsigned char kHistoryKind = 3;  ///< history.h
 
 /// Where everybody is; UAVs never heard are left out.
 std::string EncodeMotion(const FleetTable& fleet, FrameTime time, bus::Utime now);

@@ -59,6 +59,7 @@ void BusMirror::Hear(const fleet_roster_t& roster) {
   const bool same_session = !roster_shown_.is_null() && roster.session_id == roster_.session_id;
   if (same_session && roster.revision == roster_.revision) return;
   if (!same_session) fleet_.StartAnew();
+  if (roster.start_utime != roster_.start_utime) history_.Clear();
   roster_ = roster;
   fleet_.Take(roster.vehicles);
   roster_shown_ = ToJson(roster);
@@ -145,6 +146,7 @@ void BusMirror::Look() {
     sink_(TextFrame(Dump(Silent()), "bus"));
   }
   ForgetFormations();
+  history_.Take(fleet_, Time(), Now());
 }
 
 void BusMirror::ForgetFormations() {

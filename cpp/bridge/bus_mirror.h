@@ -10,6 +10,7 @@
 
 #include "bridge/binary_frames.h"
 #include "bridge/fleet_table.h"
+#include "bridge/history.h"
 #include "bridge/json_messages.h"
 #include "bridge/live_frame.h"
 #include "bus/bus.h"
@@ -41,6 +42,10 @@ class BusMirror {
   /// GET /api/state and GET /api/vehicles.
   Json State() const;
   Json Vehicles() const;
+
+  /// The flight so far, and when it began.
+  const HistorySamples& FlightSoFar() const { return history_.samples(); }
+  bus::Utime start_utime() const { return roster_.start_utime; }
 
   static constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;
   static constexpr std::size_t kMaxEvents = 200;
@@ -87,6 +92,7 @@ class BusMirror {
   Sink sink_;
 
   FleetTable fleet_;
+  History history_;
   fleet_roster_t roster_{};
   Json roster_shown_;  ///< null: none yet
   bus::Utime state_utime_ = 0;

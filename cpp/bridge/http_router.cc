@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bridge/byte_range.h"
+#include "bridge/history_query.h"
 
 namespace skein::bridge {
 namespace {
@@ -101,10 +102,13 @@ void HttpRouter::Answer(const HttpRequest& request, std::function<void(HttpRespo
     backend_.state(respond_json);
   } else if (path == "/api/vehicles") {
     backend_.vehicles(respond_json);
+  } else if (path == "/api/history") {
+    History(request, std::move(respond));
   } else if (path == "/api/command") {
     Command(request, std::move(respond));
   } else if (path.starts_with("/api/")) {
-    respond(Plain(status::not_found, "The API has /api/state, /api/vehicles and /api/command."));
+    respond(
+        Plain(status::not_found, "The API has /api/state, /api/vehicles, /api/history and /api/command."));
   } else if (path.starts_with(kTiles)) {
     respond(Tile(request));
   } else if (path == kTileArchive) {
@@ -186,6 +190,19 @@ HttpResponse HttpRouter::TileArchive(const HttpRequest& request) const {
   if (part)
     response.set(field::content_range, "bytes " + std::to_string(range.first) + "-" + last + "/" + size);
   return finish(std::move(response));
+}
+
+void HttpRouter::History(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {
+  const std::string_view target = View(request.target());
+  const std::size_t question = target.find('?');
+  const auto parsed = ParseHistoryQuery(question == std::string_view::npos ? std::string_view()
+                                                                           : target.substr(question + 1));
+  if (const auto* problem = std::get_if<std::string>(&parsed)) {
+    return respond(Plain(status::bad_request, *problem));
+  }
+  backend_.history(std::get<HistoryQuery>(parsed), [this, respond](const std::string& bytes) {
+    respond(Make(status::ok, "application/octet-stream", bytes));
+  });
 }
 
 void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {

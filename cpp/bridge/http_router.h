@@ -49,6 +49,7 @@ class HttpRouter {
   HttpResponse File(const HttpRequest& request, std::optional<StaticFile> file) const;
   HttpResponse Tile(const HttpRequest& request) const;
   HttpResponse TileArchive(const HttpRequest& request) const;
+  void History(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
   void Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
 
   AccessRules access_;

@@ -34,6 +34,15 @@ Backend WebBridge::MakeBackend(bus::LiveExecutor& executor) {
   backend.snapshot = ask([this] { return mirror_.Snapshot(); });
   backend.state = ask([this] { return Dump(mirror_.State()); });
   backend.vehicles = ask([this] { return Dump(mirror_.Vehicles()); });
+  backend.history = [this, &executor](const HistoryQuery& query, const Backend::Reply<std::string>& reply) {
+    executor.Post([this, query, reply] {
+      // Only the list is copied here: samples never change, so they are encoded on the web's thread.
+      boost::asio::post(web_context_,
+                        [query, reply, samples = mirror_.FlightSoFar(), start_utime = mirror_.start_utime()] {
+                          reply(EncodeHistory(samples, query, start_utime));
+                        });
+    });
+  };
   backend.command = [this, &executor](const std::string& channel, const nlohmann::json& body,
                                       const Backend::Reply<CommandResult>& reply) {
     executor.Post([this, channel, body, reply] {

@@ -163,6 +163,22 @@ TEST_F(BusMirrorTest, CountsTimeFromTheScenariosStartAndAgeFromWhenItHeard) {
   EXPECT_NEAR(frame.Floats()[0], 1.0, 0.01);
 }
 
+TEST_F(BusMirrorTest, KeepsTheFlightSoFarUntilAnotherOneStarts) {
+  bus::PublishChunks(others_, channel::kFleetRoster, Roster(2));
+  for (int i = 0; i < 10; ++i) {
+    SendState(2);
+    executor_.RunFor(bus::kSecond);
+  }
+  EXPECT_EQ(mirror_.FlightSoFar().size(), 10u);
+  EXPECT_EQ(mirror_.FlightSoFar().back()->rows.size(), 2u);
+  EXPECT_EQ(mirror_.start_utime(), bus::SimulatedExecutor::kStart);
+  fleet_roster_t another = Roster(2, 2);
+  another.start_utime = Now();
+  bus::PublishChunks(others_, channel::kFleetRoster, another);
+  executor_.Deliver();
+  EXPECT_TRUE(mirror_.FlightSoFar().empty());
+}
+
 TEST_F(BusMirrorTest, SendsStatusTwiceASecondAndAtOnceWhenALinkChanges) {
   bus::PublishChunks(others_, channel::kFleetRoster, Roster(1));
   SendLinks(link_status_t::LINK_UP);

@@ -108,6 +108,22 @@ TEST_F(HttpTest, RefusesTraversalOverTheWire) {
   }
 }
 
+TEST_F(HttpTest, GivesTheFlightSoFarOrSaysWhatIsWrongWithTheRequest) {
+  bridge_->OnBus(SendTwoVehicles);
+  RawClient client(port());
+  std::string bytes;
+  // The bridge looks at the fleet four times a second.
+  for (int tries = 0; tries < 100'000 && bytes.size() < 24 + 8 + 4 + 37; ++tries) {
+    const auto response = client.Get("/api/history?ids=2");
+    ASSERT_EQ(response.value().status, 200);
+    EXPECT_EQ(response->headers.at("content-type"), "application/octet-stream");
+    bytes = response->body;
+  }
+  EXPECT_EQ(bytes.size(), 24u + 8u + 4u + 37u);
+  EXPECT_EQ(client.Get("/api/history").value().status, 400);
+  EXPECT_EQ(client.Get("/api/history?ids=two").value().status, 400);
+}
+
 TEST_F(HttpTest, GivesStateAndVehiclesAsJson) {
   bridge_->OnBus(SendTwoVehicles);
   RawClient client(port());
