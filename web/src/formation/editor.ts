@@ -40,6 +40,8 @@ export class FormationEditor {
   readonly proposal_problem = signal("");
   /** The draft that was commanded and accepted last. */
   readonly accepted = signal<Draft | null>(null);
+  /** The time of the preview that is drawn on the map [s]; 0: only its tracks. */
+  readonly looked_at_s = signal(0);
   private proposal = new AbortController();
 
   constructor(readonly station: Station) {

@@ -1,5 +1,6 @@
 /** All panels of the page, one entry each. A new panel is a new line here. */
 import type { ComponentType } from "preact";
+import { FormationPanel } from "../formation/formation_panel";
 import { EventList } from "../panels/event_list";
 import { FormationTable } from "../panels/formation_table";
 import type { IconName } from "./icon";
@@ -22,7 +23,9 @@ export interface DrawerSpec extends PanelSpec {
 }
 
 /** Tools, one open at a time, in the drawer on the left. */
-export const kDrawerPanels: readonly DrawerSpec[] = [];
+export const kDrawerPanels: readonly DrawerSpec[] = [
+  { id: "formation", title: "Formation", icon: "formation", shortcut: "e", view: FormationPanel },
+];
 
 /** Beside the map on the right. */
 export const kSidePanels: readonly PanelSpec[] = [{ id: "events", title: "Events", view: EventList }];

@@ -50,6 +50,14 @@ export const speed = quantity(
   () => kSpeeds[speed_unit.value],
 );
 
+/** What is shown as it is, whatever units the person has chosen: seconds, gains. */
+export function inUnit(unit: string): Quantity {
+  return quantity(
+    () => unit,
+    () => 1,
+  );
+}
+
 /** Every altitude is told with what it is measured from: the origin of the local frame. */
 export const kAltitudeReference = "ENU";
 
