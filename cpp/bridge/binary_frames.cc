@@ -83,6 +83,7 @@ std::string EncodeStatus(const FleetTable& fleet, FrameTime time) {
   Column(bytes, rows, near, &vehicle_proximity_t::nearest_vertical_m, -1.f);
   Column(bytes, rows, near, &vehicle_proximity_t::tau_id, std::int32_t{0});
   Column(bytes, rows, near, &vehicle_proximity_t::tau_s, -1.f);
+  Column(bytes, rows, near, &vehicle_proximity_t::level_with_id, std::int32_t{0});
   Column(bytes, rows, link, &vehicle_link_t::downlink_age_s, -1.f);
   Column(bytes, rows, link, &vehicle_link_t::uplink_age_s, -1.f);
   Column(bytes, rows, link, &vehicle_link_t::estimated_east_m, 0.f);

@@ -82,6 +82,7 @@ TEST(StatusFrame, HasTheColumnsThatBrowsersExpect) {
   near.nearest_vertical_m = 20;
   near.tau_id = 2;
   near.tau_s = 12.5;
+  near.level_with_id = 2;
   proximity.vehicles = {near};
   EXPECT_TRUE(fleet.Take(proximity));
   EXPECT_FALSE(fleet.Take(proximity));
@@ -115,6 +116,7 @@ TEST(StatusFrame, HasTheColumnsThatBrowsersExpect) {
   EXPECT_EQ(frame.Floats(), (Floats{-1, 20}));     // nearest_vertical_m
   EXPECT_EQ(frame.Ints(), (Ints{0, 2}));           // tau_id
   EXPECT_EQ(frame.Floats(), (Floats{-1, 12.5f}));  // tau_s
+  EXPECT_EQ(frame.Ints(), (Ints{0, 2}));           // level_with_id
   EXPECT_EQ(frame.Floats(), (Floats{-1, 4.5f}));   // downlink_age_s
   EXPECT_EQ(frame.Floats(), (Floats{-1, 2.25f}));  // uplink_age_s
   EXPECT_EQ(frame.Floats(), (Floats{0, 1}));       // estimated_east_m

@@ -51,7 +51,9 @@ const kStatus = [
   f32(500, -1),
   f32(10, -1),
   i32(0, 7),
-  ...[4, 5, 6, 7, 8, 9, 10, 11].map((n) => f32(n, -n)),
+  f32(4, -4),
+  i32(0, 7),
+  ...[5, 6, 7, 8, 9, 10, 11].map((n) => f32(n, -n)),
   u8(0, 3),
   u8(0, 2),
   u8(1, 3),
@@ -79,6 +81,7 @@ describe("decodeFrame", () => {
     expect([...frame.nearest_id]).toEqual([9, 0]);
     expect([...frame.tau_id]).toEqual([0, 7]);
     expect([...frame.tau_s]).toEqual([4, -4]);
+    expect([...frame.level_with_id]).toEqual([0, 7]);
     expect([...frame.vertical_uncertainty_m]).toEqual([11, -11]);
     expect([...frame.level]).toEqual([0, 3]);
     expect([...frame.uplink]).toEqual([1, 3]);

@@ -46,6 +46,8 @@ export interface StatusFrame extends FrameHeader {
   nearest_vertical_m: Float32Array;
   tau_id: Int32Array;
   tau_s: Float32Array;
+  /** The other UAV that is the reason for the level, 0: none. */
+  level_with_id: Int32Array;
   downlink_age_s: Float32Array;
   uplink_age_s: Float32Array;
   estimated_east_m: Float32Array;
@@ -94,7 +96,7 @@ class Columns {
 }
 
 const kMotionBytesEach = 8 * 4 + 1;
-const kStatusBytesEach = 17 * 4 + 4;
+const kStatusBytesEach = 18 * 4 + 4;
 
 /** The frame in `buffer`; null when it is of a kind or version that this page doesn't know, or has another length than it says. */
 export function decodeFrame(buffer: ArrayBuffer): Frame | null {
@@ -109,7 +111,9 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
     case kMotionKind:
       return payload_bytes === count * kMotionBytesEach ? motionFrame(common, columns) : null;
     case kStatusKind:
-      return payload_bytes === count * kStatusBytesEach ? statusFrame(common, columns) : null;
+      // A bridge of yesterday says nothing of level_with_id.
+      if (payload_bytes === count * (kStatusBytesEach - 4)) return statusFrame(common, columns, false);
+      return payload_bytes === count * kStatusBytesEach ? statusFrame(common, columns, true) : null;
     default:
       return null;
   }
@@ -132,7 +136,7 @@ function motionFrame(header: FrameHeader, columns: Columns): MotionFrame {
   };
 }
 
-function statusFrame(header: FrameHeader, columns: Columns): StatusFrame {
+function statusFrame(header: FrameHeader, columns: Columns, with_level: boolean): StatusFrame {
   return {
     ...header,
     kind: "status",
@@ -146,6 +150,7 @@ function statusFrame(header: FrameHeader, columns: Columns): StatusFrame {
     nearest_vertical_m: columns.f32(),
     tau_id: columns.i32(),
     tau_s: columns.f32(),
+    level_with_id: with_level ? columns.i32() : new Int32Array(header.count),
     downlink_age_s: columns.f32(),
     uplink_age_s: columns.f32(),
     estimated_east_m: columns.f32(),

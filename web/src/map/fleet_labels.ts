@@ -1,11 +1,14 @@
 /** The texts beside symbols. Places are chosen a few times a second; in between, labels move with their symbols. */
 import type { Waypoint } from "../link/messages";
 import type { Store } from "../state/store";
-import { duration, fixed } from "../units/format";
+import { duration } from "../units/format";
+import { altitudeAbove, speed } from "../units/quantities";
 import type { Colours } from "./colours";
-import type { Sight } from "./fleet_layer";
 import { placeLabels, type LabelRequest, type PlacedLabel } from "./labels";
+import type { Detail } from "./looks";
 import { kSymbolRadius_px, kWaypointRadius_px } from "./shapes";
+import { clearanceOf, type Sight } from "./sights";
+import type { TextBox, TextImage, TextImages } from "./text_images";
 import type { Pixel } from "./view";
 
 const kFont = "'Inter Variable', sans-serif";
@@ -15,8 +18,8 @@ const kPadding_px = 4;
 const kLine_px = 14;
 const kGap_px = 3;
 const kReplace_ms = 250;
-/** More labels than this are a wall of text: the most important have them. */
-const kMostLabels = 120;
+/** More labels than these are a wall of text: the most important have them. */
+const kMostLabels: Record<Detail, number> = { full: 120, small: 60, dots: 30 };
 
 /** A waypoint of a formation's path, as it is drawn. */
 export interface WaypointSight extends Pixel {
@@ -33,127 +36,173 @@ export interface LeaderSight extends Pixel {
 }
 
 /** What is to be written beside a symbol. */
-interface Caption extends Pixel {
+interface Caption {
   key: string;
+  at: Pixel;
   name: string;
   /** Second line, "": none. */
   data: string;
   course_rad: number;
   clearance_px: number;
-  weight: number;
   quiet: boolean;
+}
+
+/** Somebody who may have a label. */
+interface Candidate {
+  weight: number;
+  caption: () => Caption;
+}
+
+export interface Labelled {
+  uavs: readonly Sight[];
+  leaders: readonly LeaderSight[];
+  waypoints: readonly WaypointSight[];
+  detail: Detail;
+}
+
+interface Shown {
+  key: string;
+  label: PlacedLabel;
+  image: TextImage;
 }
 
 export class FleetLabels {
   private placed: ReadonlyMap<string, PlacedLabel> = new Map();
+  private shown: readonly Shown[] = [];
   private placed_ms = -Infinity;
 
-  constructor(private readonly store: Store) {}
+  constructor(
+    private readonly store: Store,
+    private readonly colours: Colours,
+    private readonly texts: TextImages,
+  ) {}
 
-  draw(
-    context: CanvasRenderingContext2D,
-    sights: readonly Sight[],
-    leaders: readonly LeaderSight[],
-    waypoints: readonly WaypointSight[],
-    colours: Colours,
-    now_ms: number,
-  ): void {
-    const captions = [
-      ...sights.map((sight) => this.captionOf(sight, now_ms)),
-      ...leaders.map((leader) => this.captionOfLeader(leader)),
-      ...waypoints.map(captionOfWaypoint),
-    ];
+  draw(context: CanvasRenderingContext2D, labelled: Labelled, now_ms: number): void {
     if (now_ms - this.placed_ms > kReplace_ms) {
       this.placed_ms = now_ms;
-      const wanted = [...captions].sort((a, b) => b.weight - a.weight).slice(0, kMostLabels);
-      const requests = wanted.map((caption) => request(context, caption));
-      this.placed = new Map(placeLabels(requests, this.placed).map((label) => [label.key, label]));
+      this.place(labelled, now_ms);
     }
-    context.textBaseline = "top";
-    for (const caption of captions) {
-      const label = this.placed.get(caption.key);
-      if (label !== undefined) write(context, caption, label, colours);
+    const at = new Map<string, Pixel>();
+    for (const sight of labelled.uavs) at.set(keyOfUav(sight.id), sight);
+    for (const leader of labelled.leaders) at.set(keyOfLeader(leader.formation_id), leader);
+    for (const waypoint of labelled.waypoints) at.set(keyOfWaypoint(waypoint), waypoint);
+    const { ratio } = this.texts;
+    for (const { key, label, image } of this.shown) {
+      const symbol = at.get(key);
+      if (symbol === undefined) continue;
+      const x = Math.round((symbol.x + label.dx) * ratio) / ratio;
+      const y = Math.round((symbol.y + label.dy) * ratio) / ratio;
+      context.drawImage(image.image, x, y, image.width, image.height);
     }
-    context.textBaseline = "alphabetic";
+  }
+
+  private place({ uavs, leaders, waypoints, detail }: Labelled, now_ms: number): void {
+    const candidates: Candidate[] = [
+      ...uavs.map((sight) => ({
+        // One that has a label keeps it before others of the same importance.
+        weight:
+          (sight.selected ? 10 : 0) +
+          sight.level * 2 +
+          (sight.lost ? 3 : 0) +
+          (this.placed.has(keyOfUav(sight.id)) ? 0.5 : 0),
+        caption: () => this.captionOf(sight, now_ms),
+      })),
+      ...leaders.map((leader) => ({ weight: -1, caption: () => this.captionOfLeader(leader) })),
+      ...waypoints.map((waypoint) => ({ weight: -2, caption: () => captionOfWaypoint(waypoint) })),
+    ];
+    const captions = candidates
+      .sort((a, b) => b.weight - a.weight)
+      .slice(0, kMostLabels[detail])
+      .map(({ caption }) => caption());
+    const by_key = new Map(captions.map((caption) => [caption.key, caption]));
+    const labels = placeLabels(
+      captions.map((caption) => this.request(caption)),
+      this.placed,
+    );
+    this.placed = new Map(labels.map((label) => [label.key, label]));
+    this.shown = labels.flatMap((label) => {
+      const caption = by_key.get(label.key);
+      return caption === undefined ? [] : [{ key: label.key, label, image: this.imageOf(caption, label) }];
+    });
+    this.texts.sweep();
   }
 
   private captionOf(sight: Sight, now_ms: number): Caption {
-    const selected = this.store.selection.peek().has(sight.id);
     return {
-      ...sight,
-      key: `uav ${sight.id}`,
+      key: keyOfUav(sight.id),
+      at: sight,
       quiet: false,
       name: this.store.callsign(sight.id),
       data: sight.lost
         ? `lost ${duration(this.store.fleet.downlinkAge_s(sight.id, now_ms))}`
-        : `${fixed(sight.place.up_m)} m ENU  ${fixed(sight.speed_m_s)} m/s`,
-      weight: (selected ? 10 : 0) + sight.level * 2 + (sight.lost ? 3 : 0),
+        : `${altitudeAbove(sight.place.up_m)}  ${speed.full(sight.speed_m_s)}`,
+      course_rad: sight.course_rad,
+      clearance_px: clearanceOf(sight),
     };
   }
 
   private captionOfLeader(leader: LeaderSight): Caption {
     const name = this.store.formations.peek().get(leader.formation_id)?.name ?? "";
     return {
-      ...leader,
-      key: `leader ${leader.formation_id}`,
+      key: keyOfLeader(leader.formation_id),
+      at: leader,
       quiet: true,
       name: `Leader of ${name === "" ? `formation ${leader.formation_id}` : name}`,
       data: "",
+      course_rad: leader.course_rad,
       clearance_px: kSymbolRadius_px,
-      weight: -1,
     };
+  }
+
+  private request(caption: Caption): LabelRequest {
+    const name_width = this.texts.width(caption.name, kNameFont);
+    // Room for the widest digits: the label doesn't grow and shrink with the numbers.
+    const data_width = this.texts.width(caption.data.replace(/\d/g, "0"), kDataFont);
+    const compact_height = kLine_px + 2 * kPadding_px - 2;
+    return {
+      key: caption.key,
+      x: caption.at.x,
+      y: caption.at.y,
+      heading_x: Math.cos(caption.course_rad),
+      heading_y: -Math.sin(caption.course_rad),
+      clearance: caption.clearance_px + kGap_px,
+      width: Math.max(name_width, data_width) + 2 * kPadding_px,
+      height: caption.data === "" ? compact_height : compact_height + kLine_px,
+      compact_width: name_width + 2 * kPadding_px,
+      compact_height,
+    };
+  }
+
+  private imageOf(caption: Caption, label: PlacedLabel): TextImage {
+    const data = label.compact ? "" : caption.data;
+    const name_colour = caption.quiet ? this.colours.muted : this.colours.text;
+    const box = (): TextBox => ({
+      lines: [
+        { text: caption.name, font: kNameFont, colour: name_colour },
+        { text: data, font: kDataFont, colour: this.colours.muted },
+      ],
+      width: label.width,
+      height: label.height,
+      background: this.colours.tag,
+      padding_px: kPadding_px,
+      line_px: kLine_px,
+    });
+    return this.texts.get(`${caption.name}\n${data}\n${name_colour} ${label.width.toFixed(1)}`, box);
   }
 }
 
+const keyOfUav = (id: number) => `uav ${id}`;
+const keyOfLeader = (formation_id: number) => `leader ${formation_id}`;
+const keyOfWaypoint = (sight: WaypointSight) => `waypoint ${sight.formation_id} ${sight.number}`;
+
 function captionOfWaypoint(sight: WaypointSight): Caption {
   return {
-    ...sight,
-    key: `waypoint ${sight.formation_id} ${sight.number}`,
+    key: keyOfWaypoint(sight),
+    at: sight,
     quiet: true,
     name: `WP${sight.number}`,
-    data: `${fixed(sight.waypoint.up_m)} m ENU  ${fixed(sight.waypoint.speed_m_s)} m/s`,
+    data: `${altitudeAbove(sight.waypoint.up_m)}  ${speed.full(sight.waypoint.speed_m_s)}`,
     course_rad: Math.PI / 2,
     clearance_px: kWaypointRadius_px,
-    weight: -2,
   };
-}
-
-function request(context: CanvasRenderingContext2D, caption: Caption): LabelRequest {
-  context.font = kNameFont;
-  const name_width = context.measureText(caption.name).width;
-  context.font = kDataFont;
-  // Room for the widest digits: the label doesn't grow and shrink with the numbers.
-  const data_width = context.measureText(caption.data.replace(/\d/g, "0")).width;
-  const compact_height = kLine_px + 2 * kPadding_px - 2;
-  return {
-    key: caption.key,
-    x: caption.x,
-    y: caption.y,
-    heading_x: Math.cos(caption.course_rad),
-    heading_y: -Math.sin(caption.course_rad),
-    clearance: caption.clearance_px + kGap_px,
-    width: Math.max(name_width, data_width) + 2 * kPadding_px,
-    height: caption.data === "" ? compact_height : compact_height + kLine_px,
-    compact_width: name_width + 2 * kPadding_px,
-    compact_height,
-  };
-}
-
-function write(
-  context: CanvasRenderingContext2D,
-  caption: Caption,
-  label: PlacedLabel,
-  colours: Colours,
-): void {
-  const x = Math.round(caption.x + label.dx);
-  const y = Math.round(caption.y + label.dy);
-  context.fillStyle = colours.tag;
-  context.fillRect(x, y, label.width, label.height);
-  context.font = kNameFont;
-  context.fillStyle = caption.quiet ? colours.muted : colours.text;
-  context.fillText(caption.name, x + kPadding_px, y + kPadding_px);
-  if (label.compact || caption.data === "") return;
-  context.font = kDataFont;
-  context.fillStyle = colours.muted;
-  context.fillText(caption.data, x + kPadding_px, y + kPadding_px + kLine_px);
 }

@@ -1,56 +1,74 @@
 /** The UAVs, their slots and leaders: drawn in every frame of the screen, each carried on between two frames of telemetry. */
 import type { Map as LeafletMap } from "leaflet";
 import type { FormationStatus } from "../link/messages";
-import type { Place } from "../state/fleet";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
+import { altitude, distance } from "../units/quantities";
 import { identityOf, type Colours } from "./colours";
 import { FleetLabels, type LeaderSight, type WaypointSight } from "./fleet_labels";
+import { layers, trails_of } from "./layers";
+import { detailOf, type Detail } from "./looks";
 import { Overlay } from "./overlay";
-import { at, kAircraft, kFrameRadius_px, kLeader, kLevelFrames, kSlot, kSymbolRadius_px } from "./shapes";
+import { kSymbolRadius_px } from "./shapes";
+import { Sights, type Sight } from "./sights";
+import { Sprites } from "./sprites";
+import { identityPaths, segment, strokeAll } from "./strokes";
+import { TextImages } from "./text_images";
+import { drawApproaches, drawTags, pairsOf } from "./threat_layer";
 import type { Trails } from "./trails";
-import { pixelOf, pixelsPerMetre, viewOf, type Pixel, type View } from "./view";
+import { pixelOf, pixelsPerMetre, type Pixel, type View } from "./view";
 
 const kVector_s = 30;
-const kPick_px = 22;
+/** A finger hits what is this near; the nearest counts [px]. */
+const kPick_px = 24;
 /** Waypoints say altitude and speed from this scale on. */
 const kWaypointText_px_per_m = 0.03;
+const kNoteFont = "550 11px 'Inter Variable', sans-serif";
+/** Cylinders of more UAVs than this hide the map. */
+const kMostCylinders = 50;
 
-/** A UAV as it is drawn in this frame. */
-export interface Sight extends Pixel {
-  id: number;
-  place: Place;
-  level: number;
-  lost: boolean;
-  uncertainty_m: number;
-  clearance_px: number;
-  speed_m_s: number;
-  course_rad: number;
+/** What is remade when colours or the screen's resolution change. */
+interface Looks {
+  colours: Colours;
+  sprites: Sprites;
+  texts: TextImages;
+  labels: FleetLabels;
+}
+
+/** What all that draws a frame is given. */
+interface Scene extends Looks {
+  context: CanvasRenderingContext2D;
+  view: View;
+  frame: LocalFrame;
+  now_ms: number;
+  detail: Detail;
 }
 
 export class FleetLayer {
   private readonly overlay: Overlay;
-  private readonly labels: FleetLabels;
-  /** As last drawn. */
-  sights: readonly Sight[] = [];
+  private readonly sights = new Sights();
+  private looks: Looks | null = null;
 
   constructor(
-    private readonly map: LeafletMap,
+    map: LeafletMap,
     private readonly store: Store,
     private readonly trails: Trails,
   ) {
     this.overlay = new Overlay(map, "fleet");
-    this.labels = new FleetLabels(store);
   }
 
   remove(): void {
     this.overlay.remove();
   }
 
+  align(view: View): void {
+    this.overlay.align(view);
+  }
+
   /** The UAV under a point of the map, null: there is none. */
   pick(point: Pixel): number | null {
     let nearest: { id: number; distance: number } | null = null;
-    for (const sight of this.sights) {
+    for (const sight of this.sights.visible) {
       const distance = Math.hypot(sight.x - point.x, sight.y - point.y);
       if (distance <= kPick_px && (nearest === null || distance < nearest.distance))
         nearest = { id: sight.id, distance };
@@ -58,52 +76,55 @@ export class FleetLayer {
     return nearest?.id ?? null;
   }
 
-  draw(frame: LocalFrame | null, colours: Colours, now_ms: number): void {
-    const context = this.overlay.begin();
-    if (frame === null) {
-      this.sights = [];
-      return;
-    }
-    const view = viewOf(this.map);
-    this.sights = this.look(view, frame, now_ms);
-    const by_id = new Map(this.sights.map((sight) => [sight.id, sight]));
-    const statuses = [...this.store.statuses.peek().values()];
-    const leaders = statuses.map((status) =>
-      this.drawFormation(context, view, frame, status, by_id, colours, now_ms),
-    );
-    for (const sight of this.sights) this.drawVector(context, view, frame, sight, colours);
-    for (const sight of this.sights) this.drawSymbol(context, view, frame, sight, colours);
-    this.labels.draw(context, this.sights, leaders, this.waypoints(view, frame), colours, now_ms);
+  /** Those in a box of the map. */
+  within(a: Pixel, b: Pixel): number[] {
+    const inside = (value: number, from: number, to: number) =>
+      value >= Math.min(from, to) && value <= Math.max(from, to);
+    return this.sights.visible
+      .filter((sight) => inside(sight.x, a.x, b.x) && inside(sight.y, a.y, b.y))
+      .map((sight) => sight.id);
   }
 
-  private look(view: View, frame: LocalFrame, now_ms: number): Sight[] {
-    const { fleet } = this.store;
-    const { motion, status } = fleet;
-    if (motion === null) return [];
-    const sights: Sight[] = [];
-    for (let row = 0; row < motion.count; row += 1) {
-      const id = motion.id[row];
-      const place = fleet.placeAt(row, now_ms);
-      const at_px = pixelOf(view, frame, place.east_m, place.north_m, place.up_m);
-      const status_row = fleet.statusRow(id);
-      const level = status !== null && status_row >= 0 ? status.level[status_row] : 0;
-      sights.push({
-        ...at_px,
-        id,
-        place,
-        level,
-        lost: fleet.isLost(id),
-        uncertainty_m: status !== null && status_row >= 0 ? status.horizontal_uncertainty_m[status_row] : 0,
-        clearance_px: level > 0 ? kFrameRadius_px : kSymbolRadius_px,
-        speed_m_s: motion.speed_m_s[row],
-        course_rad: motion.course_rad[row],
-      });
+  draw(view: View, frame: LocalFrame | null, colours: Colours, now_ms: number): void {
+    const context = this.overlay.begin(view);
+    if (frame === null) {
+      this.sights.clear();
+      return;
     }
-    return sights;
+    this.sights.look(this.store, view, frame, now_ms);
+    const { visible } = this.sights;
+    const detail = detailOf(visible.length, view.width_px, view.height_px);
+    const scene = { ...this.looksFor(colours), context, view, frame, now_ms, detail };
+    const leaders = this.drawFormations(scene);
+    if (layers.cylinders.shown.peek()) this.drawCylinders(scene);
+    if (layers.vectors.shown.peek() && detail !== "dots") this.drawVectors(scene);
+    const pairs = pairsOf(this.sights);
+    if (layers.approaches.shown.peek() && detail !== "dots")
+      drawApproaches(context, view, frame, pairs, colours);
+    this.drawGhosts(scene);
+    this.drawSymbols(scene);
+    if (detail === "full") drawTags(context, pairs, colours, scene.texts);
+    if (layers.labels.shown.peek())
+      scene.labels.draw(
+        context,
+        { uavs: visible, leaders, waypoints: this.waypoints(view, frame), detail },
+        now_ms,
+      );
+  }
+
+  private looksFor(colours: Colours): Looks {
+    const ratio = window.devicePixelRatio;
+    if (this.looks?.colours !== colours || this.looks.sprites.ratio !== ratio) {
+      const texts = new TextImages(ratio);
+      const labels = new FleetLabels(this.store, colours, texts);
+      this.looks = { colours, texts, labels, sprites: new Sprites(colours, ratio) };
+    }
+    return this.looks;
   }
 
   /** Those that say their altitude and speed: none from far away. */
   private waypoints(view: View, frame: LocalFrame): WaypointSight[] {
+    if (!layers.paths.shown.peek()) return [];
     if (pixelsPerMetre(view, frame.origin.latitude_deg) < kWaypointText_px_per_m) return [];
     return [...this.store.paths.peek().values()].flatMap(({ formation_id, waypoints }) =>
       waypoints.map((waypoint, i) => ({
@@ -115,163 +136,167 @@ export class FleetLayer {
     );
   }
 
-  private colourOf(id: number, colours: Colours): string {
-    return colours.identity[identityOf(id) - 1] ?? colours.text;
+  private drawFormations(scene: Scene): LeaderSight[] {
+    const { context, sprites, detail } = scene;
+    const errors = identityPaths();
+    const leaders: LeaderSight[] = [];
+    const slots: (() => void)[] = [];
+    for (const status of this.store.statuses.peek().values()) {
+      const leader = this.lookAtFormation(scene, status, errors, slots);
+      leaders.push(leader);
+      sprites.put(context, sprites.leader(Math.PI / 2 - leader.course_rad, detail), leader.x, leader.y);
+    }
+    context.globalAlpha = 0.6;
+    context.setLineDash([3, 4]);
+    strokeAll(context, errors, scene.colours, 1.5);
+    context.setLineDash([]);
+    context.globalAlpha = 1;
+    for (const draw of slots) draw();
+    return leaders;
   }
 
-  private drawFormation(
-    context: CanvasRenderingContext2D,
-    view: View,
-    frame: LocalFrame,
+  private lookAtFormation(
+    { context, view, frame, now_ms, sprites, detail }: Scene,
     status: FormationStatus,
-    sights: ReadonlyMap<number, Sight>,
-    colours: Colours,
-    now_ms: number,
+    errors: readonly Path2D[],
+    slots: (() => void)[],
   ): LeaderSight {
-    const ahead_s = this.store.fleet.since_s(status.utime, now_ms);
-    const east_m = status.leader_speed_m_s * Math.cos(status.leader_course_rad) * ahead_s;
-    const north_m = status.leader_speed_m_s * Math.sin(status.leader_course_rad) * ahead_s;
-
-    for (const slot of status.slots) {
-      const { x, y } = pixelOf(
+    const ahead_m = status.leader_speed_m_s * this.store.fleet.since_s(status.utime, now_ms);
+    const east_m = Math.cos(status.leader_course_rad) * ahead_m;
+    const north_m = Math.sin(status.leader_course_rad) * ahead_m;
+    const reach_px = detail === "full" ? kSymbolRadius_px : kSymbolRadius_px / 2;
+    if (layers.slots.shown.peek() && detail !== "dots") {
+      for (const slot of status.slots) {
+        const uav = this.sights.get(slot.vehicle_id);
+        if (uav?.in_view === false) continue;
+        const at = pixelOf(
+          view,
+          frame,
+          slot.slot_east_m + east_m,
+          slot.slot_north_m + north_m,
+          slot.slot_up_m,
+        );
+        const identity = identityOf(slot.vehicle_id);
+        const away = uav !== undefined && Math.hypot(uav.x - at.x, uav.y - at.y) > reach_px;
+        if (away) segment(errors[identity - 1], uav, at);
+        // Where symbols are small, one that fills its slot hides it.
+        if (detail === "full" || away)
+          slots.push(() => {
+            sprites.put(context, sprites.slot(identity, slot.flown, detail), at.x, at.y);
+          });
+      }
+    }
+    return {
+      ...pixelOf(
         view,
         frame,
-        slot.slot_east_m + east_m,
-        slot.slot_north_m + north_m,
-        slot.slot_up_m,
-      );
-      context.strokeStyle = this.colourOf(slot.vehicle_id, colours);
-      context.lineWidth = 1.5;
-      const uav = sights.get(slot.vehicle_id);
-      if (uav !== undefined && Math.hypot(uav.x - x, uav.y - y) > kSymbolRadius_px) {
-        context.globalAlpha = 0.6;
-        context.setLineDash([3, 4]);
-        line(context, uav, { x, y });
-        context.setLineDash([]);
-      }
-      context.globalAlpha = slot.flown ? 0.9 : 0.45;
-      at(context, x, y, 0, () => {
-        context.stroke(kSlot);
-      });
-      context.globalAlpha = 1;
-    }
-
-    const leader = pixelOf(
-      view,
-      frame,
-      status.leader_east_m + east_m,
-      status.leader_north_m + north_m,
-      status.leader_up_m,
-    );
-    context.strokeStyle = colours.text;
-    context.lineWidth = 1.8;
-    at(context, leader.x, leader.y, Math.PI / 2 - status.leader_course_rad, () => {
-      context.stroke(kLeader);
-    });
-    return { ...leader, formation_id: status.formation_id, course_rad: status.leader_course_rad };
+        status.leader_east_m + east_m,
+        status.leader_north_m + north_m,
+        status.leader_up_m,
+      ),
+      formation_id: status.formation_id,
+      course_rad: status.leader_course_rad,
+    };
   }
 
-  /** Where the UAV will be in half a minute, should it fly straight on. */
-  private drawVector(
-    context: CanvasRenderingContext2D,
-    view: View,
-    frame: LocalFrame,
-    sight: Sight,
-    colours: Colours,
-  ): void {
-    context.strokeStyle = this.colourOf(sight.id, colours);
-    const newest = sight.lost ? null : this.trails.newest(sight.id, view);
-    if (newest !== null) {
-      context.globalAlpha = 0.6;
-      context.lineWidth = 2;
-      line(context, newest, sight);
+  /** The cylinder that nobody else of the formation may enter: R around it, H above and below. */
+  private drawCylinders({ context, view, frame, colours, texts }: Scene): void {
+    const selected = this.sights.visible.filter((sight) => sight.selected).slice(0, kMostCylinders);
+    for (const sight of selected) {
+      const formation = this.store.formations.peek().get(sight.formation_id);
+      if (formation === undefined) continue;
+      const radius_px = formation.radius_m * pixelsPerMetre(view, frame.origin.latitude_deg);
+      context.strokeStyle = colours.text;
+      context.lineWidth = 1.5;
+      context.beginPath();
+      context.arc(sight.x, sight.y, radius_px, 0, 2 * Math.PI);
+      context.stroke();
+      if (sight.id !== this.store.selected_id.peek()) continue;
+      const text = `R ${distance.full(formation.radius_m)}, H ${altitude.full(formation.height_m)}`;
+      const image = texts.get(text, () => ({
+        lines: [{ text, font: kNoteFont, colour: colours.text }],
+        width: texts.width(text, kNoteFont) + 8,
+        height: 18,
+        background: colours.tag,
+        padding_px: 3,
+        line_px: 14,
+      }));
+      const y = sight.y + Math.max(radius_px, kSymbolRadius_px) + 3;
+      context.drawImage(
+        image.image,
+        Math.round(sight.x - image.width / 2),
+        Math.round(y),
+        image.width,
+        image.height,
+      );
     }
-    const way_m = sight.speed_m_s * kVector_s;
-    const { course_rad } = sight;
-    const end = pixelOf(
-      view,
-      frame,
-      sight.place.east_m + way_m * Math.cos(course_rad),
-      sight.place.north_m + way_m * Math.sin(course_rad),
-      sight.place.up_m,
-    );
+  }
+
+  /** Where each will be in half a minute, should it fly straight on, and the last piece of its trail. */
+  private drawVectors({ context, view, frame, colours, detail }: Scene): void {
+    const [links, vectors, ghosts] = [identityPaths(), identityPaths(), identityPaths()];
+    for (const sight of this.sights.visible) {
+      const newest = sight.lost || !hasTrail(sight) ? null : this.trails.newest(sight.id, view);
+      if (newest !== null) segment(links[sight.identity - 1], newest, sight);
+      const way_m = sight.speed_m_s * Math.cos(sight.climb_rad) * kVector_s;
+      const [across, along] = [Math.cos(sight.course_rad), Math.sin(sight.course_rad)];
+      const { east_m, north_m, up_m } = sight.place;
+      const end = pixelOf(view, frame, east_m + way_m * across, north_m + way_m * along, up_m);
+      const path = (sight.lost ? ghosts : vectors)[sight.identity - 1];
+      segment(path, sight, end);
+      if (detail === "full")
+        segment(
+          path,
+          { x: end.x - 4 * along, y: end.y - 4 * across },
+          { x: end.x + 4 * along, y: end.y + 4 * across },
+        );
+    }
+    context.globalAlpha = 0.6;
+    strokeAll(context, links, colours, 2);
     context.globalAlpha = 0.85;
-    context.lineWidth = 1.5;
-    context.setLineDash(sight.lost ? [4, 4] : []);
-    line(context, sight, end);
+    strokeAll(context, vectors, colours, 1.5);
+    context.setLineDash([4, 4]);
+    strokeAll(context, ghosts, colours, 1.5);
     context.setLineDash([]);
-    at(context, end.x, end.y, Math.PI / 2 - course_rad, () => {
-      line(context, { x: -4, y: 0 }, { x: 4, y: 0 });
-    });
     context.globalAlpha = 1;
   }
 
-  private drawSymbol(
-    context: CanvasRenderingContext2D,
-    view: View,
-    frame: LocalFrame,
-    sight: Sight,
-    colours: Colours,
-  ): void {
-    const colour = this.colourOf(sight.id, colours);
-    if (sight.lost && sight.uncertainty_m > 0) {
-      const radius = sight.uncertainty_m * pixelsPerMetre(view, frame.origin.latitude_deg);
-      context.strokeStyle = colour;
-      context.lineWidth = 1.2;
-      context.setLineDash([5, 4]);
-      context.beginPath();
-      context.arc(sight.x, sight.y, Math.max(radius, kSymbolRadius_px + 3), 0, 2 * Math.PI);
-      context.stroke();
-      context.setLineDash([]);
+  /** Where those who are lost may be: a circle that grows until they are heard again. */
+  private drawGhosts({ context, view, frame, colours }: Scene): void {
+    const per_metre = pixelsPerMetre(view, frame.origin.latitude_deg);
+    const circles = identityPaths();
+    for (const sight of this.sights.visible) {
+      if (!sight.lost || sight.uncertainty_m <= 0) continue;
+      const radius_px = Math.max(sight.uncertainty_m * per_metre, kSymbolRadius_px + 3);
+      const circle = circles[sight.identity - 1];
+      circle?.moveTo(sight.x + radius_px, sight.y);
+      circle?.arc(sight.x, sight.y, radius_px, 0, 2 * Math.PI);
     }
-    at(context, sight.x, sight.y, 0, () => {
-      const outline = kLevelFrames[sight.level] ?? null;
-      if (outline !== null) {
-        const level_colour = colours.level[sight.level] ?? colours.text;
-        context.globalAlpha = 0.16;
-        context.fillStyle = level_colour;
-        context.fill(outline);
-        context.globalAlpha = 1;
-        context.strokeStyle = level_colour;
-        context.lineWidth = 2.5;
-        context.stroke(outline);
+    context.setLineDash([5, 4]);
+    strokeAll(context, circles, colours, 1.2);
+    context.setLineDash([]);
+  }
+
+  private drawSymbols({ context, sprites, detail }: Scene): void {
+    const { visible } = this.sights;
+    // The most serious last, over all others.
+    for (let level = 0; level <= 3; level += 1) {
+      for (const sight of visible) {
+        if (sight.level !== level) continue;
+        const frame = sprites.level(level, detail);
+        if (frame !== null) sprites.put(context, frame, sight.x, sight.y);
+        const symbol = sight.stranger
+          ? sprites.traffic(sight.identity, sight.lost, detail)
+          : sprites.aircraft(sight.identity, sight.lost, Math.PI / 2 - sight.course_rad, detail);
+        sprites.put(context, symbol, sight.x, sight.y);
+        if (sight.selected) sprites.put(context, sprites.brackets(), sight.x, sight.y);
       }
-      if (this.store.selection.peek().has(sight.id)) brackets(context, colours.text);
-    });
-    at(context, sight.x, sight.y, Math.PI / 2 - sight.course_rad, () => {
-      context.lineJoin = "round";
-      context.strokeStyle = sight.lost ? colour : colours.map_halo;
-      context.lineWidth = sight.lost ? 1.5 : 3;
-      context.stroke(kAircraft);
-      context.fillStyle = sight.lost ? colours.map_halo : colour;
-      context.fill(kAircraft);
-    });
+    }
   }
 }
 
-function line(context: CanvasRenderingContext2D, a: Pixel, b: Pixel): void {
-  context.beginPath();
-  context.moveTo(a.x, a.y);
-  context.lineTo(b.x, b.y);
-  context.stroke();
-}
-
-/** The corners around the selected UAV. */
-function brackets(context: CanvasRenderingContext2D, colour: string): void {
-  const far = 26;
-  const arm = 7;
-  context.strokeStyle = colour;
-  context.lineWidth = 1.5;
-  context.beginPath();
-  for (const [x, y] of [
-    [-1, -1],
-    [1, -1],
-    [1, 1],
-    [-1, 1],
-  ] as const) {
-    context.moveTo(x * far, y * (far - arm));
-    context.lineTo(x * far, y * far);
-    context.lineTo(x * (far - arm), y * far);
-  }
-  context.stroke();
+/** Whether this UAV's trail is to be drawn. */
+export function hasTrail(sight: Pick<Sight, "selected">): boolean {
+  const of = trails_of.peek();
+  return of === "all" || (of === "selected" && sight.selected);
 }

@@ -12,9 +12,12 @@ import { localGridStep_m } from "./grid";
 import { GroundLayer } from "./ground_layer";
 import type { EnuPoint, MapAccess, MapTool } from "./map_access";
 import { Trails } from "./trails";
-import { pixelsPerMetre, viewOf } from "./view";
+import { pixelsPerMetre, viewOf, type View } from "./view";
 
 const kGroundInterval_ms = 500;
+/** A map that moves takes what was drawn along, so that it need not be drawn in every frame. */
+const kMovedInterval_ms = 80;
+const kLongestMovedInterval_ms = 400;
 /** A fleet on a map that stands still moves by a pixel or so in this time. */
 const kFleetInterval_ms = 30;
 /** Where drawing is slow (no GPU, a busy machine), it leaves this part of the time to everything else, within reason. */
@@ -45,8 +48,10 @@ export class FleetMap implements MapAccess {
   private start_utime = 0;
   private ground_drawn_ms = -Infinity;
   private fleet_drawn_ms = -Infinity;
-  private draw_cost_ms = 0;
-  private drew = false;
+  private ground_cost_ms = 0;
+  private fleet_cost_ms = 0;
+  /** What the last frame has drawn. */
+  private drew: "ground" | "fleet" | null = null;
   private ground_old = true;
   /** The map is to be fitted; done when the fleet and its slots are known, or the fleet alone for a while. */
   private to_fit = true;
@@ -187,22 +192,40 @@ export class FleetMap implements MapAccess {
       if (this.to_fit) this.fitNow(this.local, now_ms);
       else if (this.following.peek()) this.camera.follow(this.local, now_ms);
     }
+    const view = viewOf(this.leaflet);
     // What a drawn frame costs shows in when the next one comes.
-    if (this.drew) this.draw_cost_ms = now_ms - this.fleet_drawn_ms;
-    const fair_ms = this.draw_cost_ms / (1 - kIdlePart);
-    const interval_ms = Math.min(Math.max(kFleetInterval_ms, fair_ms), kLongestFleetInterval_ms);
-    this.drew = this.ground_old || now_ms - this.fleet_drawn_ms >= interval_ms;
-    if (this.ground_old || now_ms - this.ground_drawn_ms > kGroundInterval_ms) {
+    if (this.drew === "fleet") this.fleet_cost_ms = now_ms - this.fleet_drawn_ms;
+    if (this.drew === "ground") this.ground_cost_ms = now_ms - this.ground_drawn_ms;
+    this.drew = null;
+    if (this.groundIsDue(now_ms)) {
       this.ground_old = false;
       this.ground_drawn_ms = now_ms;
-      this.ground.draw(this.local, this.colours);
-      this.measure();
+      this.drew = "ground";
+      this.ground.draw(view, this.local, this.colours);
+      this.measureScale(view);
+    } else {
+      this.ground.align(view);
     }
-    if (this.drew) {
+    // One of both in a frame, so that neither makes a frame long.
+    if (this.drew === null && now_ms - this.fleet_drawn_ms >= this.fleetInterval_ms()) {
       this.fleet_drawn_ms = now_ms;
-      this.fleet.draw(this.local, this.colours, now_ms);
+      this.drew = "fleet";
+      this.fleet.draw(view, this.local, this.colours, now_ms);
+    } else {
+      this.fleet.align(view);
     }
   };
+
+  private groundIsDue(now_ms: number): boolean {
+    const fair_ms = Math.max(kMovedInterval_ms, 4 * this.ground_cost_ms);
+    const interval_ms = this.ground_old ? Math.min(fair_ms, kLongestMovedInterval_ms) : kGroundInterval_ms;
+    return now_ms - this.ground_drawn_ms >= interval_ms;
+  }
+
+  private fleetInterval_ms(): number {
+    const fair_ms = this.fleet_cost_ms / (1 - kIdlePart);
+    return Math.min(Math.max(kFleetInterval_ms, fair_ms), kLongestFleetInterval_ms);
+  }
 
   private fitNow(frame: LocalFrame, now_ms: number): void {
     if (!this.camera.fit(frame, now_ms)) return;
@@ -210,8 +233,7 @@ export class FleetMap implements MapAccess {
     this.to_fit = this.store.statuses.peek().size === 0 && now_ms - this.fleet_seen_ms < kWaitForSlots_ms;
   }
 
-  private measure(): void {
-    const view = viewOf(this.leaflet);
+  private measureScale(view: View): void {
     const latitude_deg = this.leaflet.getCenter().lat;
     const metres_per_pixel = 1 / pixelsPerMetre(view, latitude_deg);
     const grid_m = localGridStep_m(view, this.local);

@@ -4,18 +4,20 @@ import type { Path } from "../link/messages";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 import { identityOf, type Colours } from "./colours";
+import { hasTrail } from "./fleet_layer";
 import { drawGrid } from "./grid";
+import { layers, trail_min, trails_of } from "./layers";
 import { Overlay } from "./overlay";
-import { at, kWaypoint } from "./shapes";
+import { kWaypoint } from "./shapes";
 import type { Trails } from "./trails";
-import { mercatorLine, pixelOf, viewOf, xOf, yOf, type View } from "./view";
+import { mercatorLine, pixelOf, xOf, yOf, type View } from "./view";
 
 export class GroundLayer {
   private readonly overlay: Overlay;
   private readonly lines = new WeakMap<Path, { frame: LocalFrame; line: Float64Array }>();
 
   constructor(
-    private readonly map: LeafletMap,
+    map: LeafletMap,
     private readonly store: Store,
     private readonly trails: Trails,
   ) {
@@ -26,13 +28,28 @@ export class GroundLayer {
     this.overlay.remove();
   }
 
-  draw(frame: LocalFrame | null, colours: Colours): void {
-    const context = this.overlay.begin();
-    const view = viewOf(this.map);
-    drawGrid(context, view, frame, colours);
+  align(view: View): void {
+    this.overlay.align(view);
+  }
+
+  draw(view: View, frame: LocalFrame | null, colours: Colours): void {
+    const context = this.overlay.begin(view);
+    if (layers.grid.shown.peek()) drawGrid(context, view, frame, colours);
     if (frame === null) return;
-    for (const path of this.store.paths.peek().values()) this.drawPath(context, view, path, frame, colours);
-    this.trails.draw(context, view, (id) => colours.identity[identityOf(id) - 1] ?? colours.text);
+    if (layers.paths.shown.peek()) {
+      for (const path of this.store.paths.peek().values()) this.drawPath(context, view, path, frame, colours);
+    }
+    const ids = this.store.fleet.motion?.id ?? [];
+    const selection = this.store.selection.peek();
+    const shown =
+      trails_of.peek() === "all" ? ids : ids.filter((id) => hasTrail({ selected: selection.has(id) }));
+    this.trails.draw(
+      context,
+      view,
+      { ids: shown, length_min: trail_min.peek() },
+      identityOf,
+      colours.identity,
+    );
   }
 
   private drawPath(
@@ -54,9 +71,9 @@ export class GroundLayer {
     context.fillStyle = colours.path;
     for (const waypoint of path.waypoints) {
       const { x, y } = pixelOf(view, frame, waypoint.east_m, waypoint.north_m, waypoint.up_m);
-      at(context, x, y, 0, () => {
-        context.fill(kWaypoint);
-      });
+      context.translate(x, y);
+      context.fill(kWaypoint);
+      context.translate(-x, -y);
     }
   }
 

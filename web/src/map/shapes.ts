@@ -20,7 +20,10 @@ export const kWaypoint = new Path2D(
   "M0 -6L1.600 -1.600L6 0L1.600 1.600L0 6L-1.600 1.600L-6 0L-1.600 -1.600Z",
 );
 
-/** By level, after TCAS: nothing, a diamond, a circle, a square. The table's lamps have the same shapes. */
+/** Who flies in no formation, after TCAS: an open diamond. */
+export const kTraffic = new Path2D("M0 -12L12 0L0 12L-12 0Z");
+
+/** By level, after TCAS: nothing, a diamond, a circle, a square, all filled. The table's lamps have the same shapes. */
 export const kLevelFrames: readonly (Path2D | null)[] = [
   null,
   new Path2D("M0 -22L22 0L0 22L-22 0Z"),
@@ -32,18 +35,3 @@ export const kLevelFrames: readonly (Path2D | null)[] = [
 export const kSymbolRadius_px = 15;
 export const kFrameRadius_px = 22;
 export const kWaypointRadius_px = 6;
-
-/** Draws with (0, 0) at a point and up the screen turned to a compass direction. */
-export function at(
-  context: CanvasRenderingContext2D,
-  x: number,
-  y: number,
-  compass_rad: number,
-  draw: (context: CanvasRenderingContext2D) => void,
-): void {
-  context.save();
-  context.translate(x, y);
-  context.rotate(compass_rad);
-  draw(context);
-  context.restore();
-}

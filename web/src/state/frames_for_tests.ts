@@ -40,6 +40,7 @@ export function statusFrame(ids: number[], given: Partial<StatusFrame> = {}): St
     nearest_vertical_m: f32(),
     tau_id: i32(),
     tau_s: f32().fill(-1),
+    level_with_id: i32(),
     downlink_age_s: f32(),
     uplink_age_s: f32(),
     estimated_east_m: f32(),
