@@ -54,11 +54,11 @@ export class GhostLayer {
   }
 
   private readonly draw = (): void => {
-    const context = this.overlay.begin();
+    const view = viewOf(this.map.leaflet);
+    const context = this.overlay.begin(view);
     const frame = this.map.frame();
     const session = this.editor.session.peek();
     if (frame === null || session === null || !session.changed.peek()) return;
-    const view = viewOf(this.map.leaflet);
     const preview = this.editor.preview.state.peek();
     if (preview.kind === "done" && preview.result.ok) this.drawTracks(context, view, frame, preview.result);
     this.drawSlots(context, view, frame);

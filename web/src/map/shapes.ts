@@ -35,3 +35,18 @@ export const kLevelFrames: readonly (Path2D | null)[] = [
 export const kSymbolRadius_px = 15;
 export const kFrameRadius_px = 22;
 export const kWaypointRadius_px = 6;
+
+/** Draws with (0, 0) at a point and up the screen turned to a compass direction. */
+export function at(
+  context: CanvasRenderingContext2D,
+  x: number,
+  y: number,
+  compass_rad: number,
+  draw: (context: CanvasRenderingContext2D) => void,
+): void {
+  context.save();
+  context.translate(x, y);
+  context.rotate(compass_rad);
+  draw(context);
+  context.restore();
+}
