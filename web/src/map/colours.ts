@@ -10,6 +10,7 @@ export interface Colours {
   map_text: string;
   map_halo: string;
   path: string;
+  accent: string;
   text: string;
   muted: string;
   tag: string;
@@ -29,6 +30,7 @@ export function readColours(): Colours {
     map_text: value("--map-text"),
     map_halo: value("--map-halo"),
     path: value("--map-path"),
+    accent: value("--accent"),
     text: value("--text"),
     muted: value("--muted"),
     tag: value("--map-tag"),

@@ -1,9 +1,8 @@
 import { describe, expect, test } from "vitest";
 import type { Waypoint } from "../link/messages";
-import { arrivals_s, legsOf, totalsOf } from "./legs";
+import { flownLegs, straightLegs, totalsOf } from "./legs";
 import {
   centreOf,
-  insertionIndex,
   insertWaypoint,
   midway,
   moved,
@@ -28,33 +27,31 @@ const eastNorth = (plan: PathPlan) =>
 
 describe("legs", () => {
   test("have length, course and time; a loop has one more, back to the first", () => {
-    expect(legsOf(kOpen).map(({ length_m }) => length_m)).toEqual([3000, 4000]);
-    const loop = legsOf(kLoop);
+    expect(straightLegs(kOpen).map(({ length_m }) => length_m)).toEqual([3000, 4000]);
+    const loop = straightLegs(kLoop);
     expect(loop.map(({ length_m }) => length_m)).toEqual([3000, 4000, 5000]);
     expect(loop.map(({ time_s }) => time_s)).toEqual([60, 80, 100]);
+    expect(loop.map(({ arrival_s }) => arrival_s)).toEqual([60, 140, 240]);
     expect(loop[0]?.course_rad).toBeCloseTo(Math.PI / 2);
     expect(loop[2]).toMatchObject({ from: 2, to: 0 });
+    expect(totalsOf(loop)).toEqual({ length_m: 12_000, time_s: 240 });
   });
 
   test("two waypoints make no loop", () => {
-    expect(legsOf({ closed: true, waypoints: kOpen.waypoints.slice(0, 2) })).toHaveLength(1);
+    expect(straightLegs({ closed: true, waypoints: kOpen.waypoints.slice(0, 2) })).toHaveLength(1);
   });
 
   test("a speed that changes counts with its mean", () => {
-    const legs = legsOf({ closed: false, waypoints: [point(0, 0), point(6000, 0, { speed_m_s: 70 })] });
+    const legs = straightLegs({ closed: false, waypoints: [point(0, 0), point(6000, 0, { speed_m_s: 70 })] });
     expect(legs[0]?.time_s).toBe(100);
   });
 
-  test("totals count climbs and descents apart", () => {
-    const plan = {
-      closed: true,
-      waypoints: [point(0, 0), point(0, 3000, { up_m: 1200 }), point(4000, 3000)],
-    };
-    expect(totalsOf(legsOf(plan))).toEqual({ length_m: 12_000, time_s: 240, climb_m: 200, descent_m: 200 });
-  });
-
-  test("arrivals add up from the first waypoint", () => {
-    expect(arrivals_s(3, legsOf(kLoop), 20)).toEqual([20, 80, 160]);
+  test("as flown they begin at the leader", () => {
+    const legs = [
+      { from: null, to: 0, length_m: 900, time_s: 18, course_rad: 0 },
+      { from: 0, to: 1, length_m: 2800, time_s: 56, course_rad: 1 },
+    ];
+    expect(flownLegs({ ok: true, reason: "", line: [], problems: [], legs }).at(-1)?.arrival_s).toBe(74);
   });
 });
 
@@ -84,18 +81,12 @@ describe("edits", () => {
     const turned = rotated(kOpen, Math.PI / 2);
     expect(centreOf(turned).east_m).toBeCloseTo(centreOf(kOpen).east_m);
     // The first leg went north; now it goes east.
-    expect(legsOf(turned)[0]?.course_rad).toBeCloseTo(0);
+    expect(straightLegs(turned)[0]?.course_rad).toBeCloseTo(0);
   });
 
   test("moves all alike", () => {
     expect(eastNorth(moved(kOpen, 100, -50))[2]).toEqual([4100, 2950]);
     expect(moved(kOpen, 0, 0, 30).waypoints[1]?.up_m).toBe(1030);
-  });
-
-  test("a place goes into the nearest leg, the closing one of a loop too", () => {
-    expect(insertionIndex(kOpen, { east_m: 100, north_m: 1500 })).toBe(1);
-    expect(insertionIndex(kOpen, { east_m: 2000, north_m: 3100 })).toBe(2);
-    expect(insertionIndex(kLoop, { east_m: 2000, north_m: 1400 })).toBe(3);
   });
 
   test("midway has mean altitude and speed", () => {

@@ -107,23 +107,3 @@ export function midway(from: Waypoint, to: Waypoint): Waypoint {
     turn_radius_m: 0,
   };
 }
-
-/** On which leg a place near the path is to be inserted: the index of the waypoint before which it goes. */
-export function insertionIndex(plan: PathPlan, place: Place): number {
-  let best = { distance_m: Infinity, index: plan.waypoints.length };
-  legEnds(plan).forEach(([from, to]) => {
-    const [start, end] = [plan.waypoints[from], plan.waypoints[to]];
-    if (start === undefined || end === undefined) return;
-    const distance_m = distanceToSegment(place, start, end);
-    if (distance_m < best.distance_m) best = { distance_m, index: from + 1 };
-  });
-  return best.index;
-}
-
-function distanceToSegment(place: Place, start: Place, end: Place): number {
-  const [dx, dy] = [end.east_m - start.east_m, end.north_m - start.north_m];
-  const [px, py] = [place.east_m - start.east_m, place.north_m - start.north_m];
-  const length2 = dx * dx + dy * dy;
-  const part = length2 === 0 ? 0 : Math.min(Math.max((px * dx + py * dy) / length2, 0), 1);
-  return Math.hypot(px - part * dx, py - part * dy);
-}

@@ -3,6 +3,7 @@ import type { ComponentType } from "preact";
 import { FormationPanel } from "../formation/formation_panel";
 import { EventList } from "../panels/event_list";
 import { FormationTable } from "../panels/formation_table";
+import { PlanPanel } from "../plan/plan_panel";
 import type { IconName } from "./icon";
 import type { Station } from "./station";
 
@@ -25,6 +26,7 @@ export interface DrawerSpec extends PanelSpec {
 /** Tools, one open at a time, in the drawer on the left. */
 export const kDrawerPanels: readonly DrawerSpec[] = [
   { id: "formation", title: "Formation", icon: "formation", shortcut: "e", view: FormationPanel },
+  { id: "plan", title: "Plan", icon: "plan", shortcut: "p", view: PlanPanel },
 ];
 
 /** Beside the map on the right. */
