@@ -52,12 +52,13 @@ struct Bus::Impl {
   Executor& executor;
   std::int64_t session_id;
   BusStatistics statistics;
+  bool logs = true;
   std::vector<std::unique_ptr<Subscription>> subscriptions;
   std::vector<std::byte> encode_buffer;
 };
 
 Bus::Bus(std::shared_ptr<lcm::LCM> transport, std::string node, Executor& executor)
-    : impl_(new Impl{std::move(transport), std::move(node), executor, executor.Now(), {}, {}, {}}) {
+    : impl_(new Impl{std::move(transport), std::move(node), executor, executor.Now(), {}, true, {}, {}}) {
   assert(impl_->transport && impl_->transport->good());
 }
 
@@ -92,6 +93,9 @@ void Bus::PublishBytes(const std::string& channel, int size) {
 void Bus::CountGaps(std::int64_t missed) { impl_->statistics.gaps += missed; }
 
 std::int64_t Bus::TakeWorstHandler() { return std::exchange(impl_->statistics.worst_handler_us, 0); }
+
+void Bus::SetLogs(bool logs) { impl_->logs = logs; }
+bool Bus::logs() const { return impl_->logs; }
 
 const std::string& Bus::node() const { return impl_->node; }
 std::int64_t Bus::session_id() const { return impl_->session_id; }

@@ -62,6 +62,11 @@ class Bus {
   /// Longest handler since the last call [us], for HEARTBEAT.
   std::int64_t TakeWorstHandler();
 
+  /// Whether what the node tells people goes into this process's log, too (so unless said otherwise). Off for
+  /// nodes that only try a flight out beside a live one.
+  void SetLogs(bool logs);
+  bool logs() const;
+
   const std::string& node() const;
   /// Identifies this run of the node; a later start has a larger one (utime of the start).
   std::int64_t session_id() const;

@@ -50,7 +50,7 @@ void CommandInbox::Acknowledge(const Request& request, const Answer& answer) {
   ack.accepted = answer.accepted;
   ack.reason = answer.reason;
   bus_.Publish(channel::kAck, ack);
-  if (!answer.accepted) spdlog::info("{} refused: {}", request.channel, answer.reason);
+  if (!answer.accepted && bus_.logs()) spdlog::info("{} refused: {}", request.channel, answer.reason);
 }
 
 }  // namespace skein::bus

@@ -17,6 +17,7 @@ void Events::Tell(std::int8_t severity, const std::string& code, const std::stri
   event.formation_id = about.formation_id;
   event.text = text;
   bus_.Publish(channel::kEvent, event);
+  if (!bus_.logs()) return;
   spdlog::log(severity >= event_t::CAUTION ? spdlog::level::warn : spdlog::level::info, "{}: {}", code, text);
 }
 

@@ -17,6 +17,7 @@
 #include "config/scenario.h"
 #include "controller/fleet_picture.h"
 #include "controller/formation_flight.h"
+#include "controller/state_file.h"
 
 namespace skein::controller {
 
@@ -28,6 +29,8 @@ struct ControllerOptions {
   /// Where the state of all formations is kept, so that a controller that died picks up where it was; empty:
   /// nowhere.
   std::filesystem::path state_file;
+  /// Formations in flight to go on with, instead of those of the state file and of the scenario.
+  std::optional<ControllerState> state;
 };
 
 /// formation-controller: wakes on each complete tick of FLEET_STATE and answers with CMD_FLEET.
@@ -36,6 +39,8 @@ class FormationControllerNode {
   FormationControllerNode(bus::Bus& bus, const ControllerOptions& options);
 
   const std::map<int, FormationFlight>& flights() const { return flights_; }
+  /// What CMD_PATH would be answered and flown now; none when there is no such formation.
+  std::optional<PathPlan> PlanPath(const path_command_t& command) const;
 
  private:
   // What the bus brings (controller_node.cc).
@@ -54,6 +59,7 @@ class FormationControllerNode {
   bus::Answer OnFormationCommand(const formation_command_t& command);
   bus::Answer OnPathCommand(const path_command_t& command);
   bus::Answer Apply(const formation_t& message);
+  std::string CloseSlots(const config::FormationConfig& config) const;
   std::string WhyNot(const config::FormationConfig& config) const;
 
   // What goes out (controller_node.cc).

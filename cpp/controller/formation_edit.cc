@@ -2,6 +2,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "controller/formation_flight.h"
@@ -81,8 +82,8 @@ std::string FormationFlight::Edit(const config::FormationConfig& config, const F
   return "";
 }
 
-std::string FormationFlight::TakePath(const std::vector<Waypoint>& waypoints, bool closed,
-                                      const FleetPicture& fleet) {
+PathPlan FormationFlight::PlanPath(const std::vector<Waypoint>& waypoints, bool closed,
+                                   const FleetPicture& fleet) const {
   const PathLimits limits = LimitsFor(fleet, config_.slots);
   const double from = leader_.arc_m();
   PathResult planned;
@@ -93,11 +94,32 @@ std::string FormationFlight::TakePath(const std::vector<Waypoint>& waypoints, bo
   } else {
     planned = PlanWaypoints(waypoints, closed, limits);
   }
-  if (!planned.path) return planned.reason;
-  const PathResult joined =
+  PathPlan plan;
+  plan.problems = std::move(planned.problems);
+  if (!planned.path) return plan;
+  PathResult joined =
       Join(leader_.path(), from, *planned.path, planned.path->start_arc_m(), KeepBehind(), limits);
-  if (!joined.path) return joined.reason;
-  leader_.SetPath(*joined.path);
+  if (!joined.path) {
+    plan.problems.push_back({0, false, joined.reason});
+    return plan;
+  }
+  plan.path = std::move(joined.path);
+  plan.joins_at_m = joined.joins_at_m;
+  for (const double arc : planned.waypoint_arcs_m) {
+    // What lies before the place of joining comes at the end of the lap, or is where the two meet.
+    const double lap = plan.path->lap_m();
+    double passed = arc + joined.shift_m;
+    if (lap > 0) passed += lap * std::ceil((plan.joins_at_m - passed) / lap);
+    plan.waypoint_arcs_m.push_back(std::max(passed, plan.joins_at_m));
+  }
+  return plan;
+}
+
+std::string FormationFlight::TakePath(const std::vector<Waypoint>& waypoints, bool closed,
+                                      const FleetPicture& fleet) {
+  PathPlan plan = PlanPath(waypoints, closed, fleet);
+  if (!plan.path) return plan.problems.front().text;
+  leader_.SetPath(std::move(*plan.path));
   waypoints_ = waypoints;
   before_hold_.reset();
   ++path_revision_;

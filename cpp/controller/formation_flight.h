@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <skein/formation_status_t.hpp>
 #include <string>
 #include <variant>
@@ -34,6 +35,15 @@ struct Airspace {
   ProximityLimits strangers = StrangerLimits();
 };
 
+/// A way from where a leader is along waypoints, or all that is against it.
+struct PathPlan {
+  std::optional<Path> path;
+  std::vector<PathProblem> problems;  ///< empty exactly when there is a path
+  double joins_at_m = 0;              ///< arc length where the way to the waypoints ends
+  /// Where the path goes by each waypoint; of a closed path the first time after joins_at_m.
+  std::vector<double> waypoint_arcs_m;
+};
+
 /// Flies one formation: its virtual leader, the law of each member, and avoidance when a link is lost. Knows
 /// no bus.
 class FormationFlight {
@@ -51,8 +61,10 @@ class FormationFlight {
 
   /// Takes new slots, control, gains or limits in flight. @return why not, empty when taken.
   std::string Edit(const config::FormationConfig& config, const FleetPicture& fleet);
-  /// A new path, joined from where the leader is; no waypoints: straight on. @return why not, empty when
-  /// taken.
+  /// What TakePath would fly: a path through waypoints, joined from where the leader is; no waypoints:
+  /// straight on.
+  PathPlan PlanPath(const std::vector<Waypoint>& waypoints, bool closed, const FleetPicture& fleet) const;
+  /// Flies it. @return why not, empty when taken.
   std::string TakePath(const std::vector<Waypoint>& waypoints, bool closed, const FleetPicture& fleet);
   /// Loiters here. @return why not, empty when it does.
   std::string Hold(const FleetPicture& fleet);

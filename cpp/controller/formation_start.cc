@@ -9,7 +9,6 @@
 #include "bus/conversions.h"
 #include "controller/controller_node.h"
 #include "controller/formation_message.h"
-#include "controller/state_file.h"
 #include "core/frames.h"
 
 namespace skein::controller {
@@ -144,8 +143,7 @@ void FormationControllerNode::SaveState() {
 }
 
 bool FormationControllerNode::RestoreState() {
-  if (options_.state_file.empty()) return false;
-  const auto state = ReadState(options_.state_file);
+  const auto state = options_.state ? options_.state : ReadState(options_.state_file);
   if (!state || state->start_utime != start_utime_) return false;
   for (const FormationState& saved : state->formations) {
     const auto config = ToFormationConfig(saved.formation);

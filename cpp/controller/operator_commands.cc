@@ -1,6 +1,8 @@
 // What operators ask of the controller, and its answers.
 #include <spdlog/fmt/fmt.h>
 
+#include <cmath>
+
 #include "bus/channels.h"
 #include "bus/conversions.h"
 #include "controller/controller_node.h"
@@ -64,12 +66,35 @@ bus::Answer FormationControllerNode::Apply(const formation_t& message) {
       known == flights_.end() ? StartFlight(config) : known->second.Edit(config, fleet_);
   if (!why_not.empty()) return bus::Answer::Refused(why_not);
   const FormationFlight& flight = flights_.at(config.id);
-  Tell(flight,
-       {event_t::INFO, "formation_applied", 0,
-        fmt::format("{} of {} UAVs, control {}", Name(config.shape), config.slots.size(), config.control)});
+  const std::string remark = CloseSlots(config);
+  Tell(flight, {remark.empty() ? event_t::INFO : event_t::CAUTION, "formation_applied", 0,
+                fmt::format("{} of {} UAVs, control {}{}{}", Name(config.shape), config.slots.size(),
+                            config.control, remark.empty() ? "" : "; ", remark)});
   SendFormation(flight);
   SaveState();
-  return bus::Answer::Accepted();
+  return bus::Answer::Accepted(remark);
+}
+
+std::string FormationControllerNode::CloseSlots(const config::FormationConfig& config) const {
+  const ProximityLimits& limits = config.proximity;
+  std::string text;
+  int pairs = 0;
+  for (std::size_t i = 0; i < config.slots.size(); ++i) {
+    for (std::size_t k = i + 1; k < config.slots.size(); ++k) {
+      const SlotOffset& one = config.slots[i].offset;
+      const SlotOffset& other = config.slots[k].offset;
+      const double horizontal = std::hypot(one.forward_m - other.forward_m, one.left_m - other.left_m);
+      const double vertical = std::abs(one.up_m - other.up_m);
+      if (horizontal >= limits.radius_m || vertical >= limits.height_m) continue;
+      if (++pairs > 1) continue;
+      text = fmt::format(
+          "the slots of {} and {} are {:.0f} m apart and {:.0f} m in height: inside one "
+          "another's cylinder",
+          fleet_.at(config.slots[i].vehicle_id).callsign, fleet_.at(config.slots[k].vehicle_id).callsign,
+          horizontal, vertical);
+    }
+  }
+  return pairs < 2 ? text : fmt::format("{}; so are those of {} more pairs", text, pairs - 1);
 }
 
 std::string FormationControllerNode::WhyNot(const config::FormationConfig& config) const {
@@ -83,6 +108,12 @@ std::string FormationControllerNode::WhyNot(const config::FormationConfig& confi
     }
   }
   return "";
+}
+
+std::optional<PathPlan> FormationControllerNode::PlanPath(const path_command_t& command) const {
+  const auto flight = flights_.find(command.formation_id);
+  if (flight == flights_.end()) return std::nullopt;
+  return flight->second.PlanPath(bus::ToWaypoints(command), command.closed, fleet_);
 }
 
 bus::Answer FormationControllerNode::OnPathCommand(const path_command_t& command) {

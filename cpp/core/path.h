@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -130,14 +131,26 @@ class Path {
   double lap_turn_rad_ = 0;
 };
 
+/// Why waypoints cannot be flown as they are, and at which of them, in words for an operator.
+struct PathProblem {
+  std::size_t waypoint = 0;  ///< index from 0
+  bool on_leg = false;       ///< on the leg that begins at it
+  std::string text;
+};
+
 /// A path, or why there is none, in words for an operator.
 struct PathResult {
   std::optional<Path> path;
-  std::string reason;
+  std::string reason;  ///< of problems, the first one
+
+  std::vector<PathProblem> problems = {};    ///< of PlanWaypoints: all that were found
+  std::vector<double> waypoint_arcs_m = {};  ///< of PlanWaypoints: where on the path it goes by each waypoint
+  double joins_at_m = 0;                     ///< of Join: from this arc length on it is the next path
+  double shift_m = 0;  ///< of Join: what arc lengths there are more than on the next path
 };
 
 /// Through waypoints. A closed path needs 3 waypoints and is rounded at the first one, too: it begins behind
-/// that turn. An open one needs 2 and ends in a loiter circle. Refused, with the number of the waypoint or
+/// that turn. An open one needs 2 and ends in a loiter circle. Refused, with the number of each waypoint or
 /// leg (from 1) and what would help: two identical waypoints in a row, a corner that turns back, legs too
 /// short for the arcs, a radius, climb or change of speed that a slot cannot fly, a loop shorter than the
 /// formation.

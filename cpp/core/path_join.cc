@@ -167,7 +167,10 @@ class Joining {
       excess = FirstExcess(path, limits_, behind, start);
     }
     if (excess) return {std::nullopt, excess->what};
-    return {std::move(path), ""};
+    PathResult result{std::move(path), ""};
+    result.joins_at_m = end;
+    result.shift_m = end - target_.arc_m;
+    return result;
   }
 
   /// What is left of the next path, from the target on, moved to where the join ends.

@@ -52,11 +52,11 @@ class WaypointPlan {
       : waypoints_(waypoints), closed_(closed), limits_(limits), corners_(waypoints.size()) {}
 
   PathResult Plan() {
-    if (!Check() || !MakeLegs()) return {std::nullopt, reason_};
+    if (!Check() || !MakeLegs()) return Refusal();
     for (int pass = 1;; ++pass) {
-      if (!PlanTurns() || !Fit()) return {std::nullopt, reason_};
+      if (!PlanTurns() || !Fit()) return Refusal();
       std::optional<Path> path = Lay();
-      if (!path) return {std::nullopt, reason_};
+      if (!path) return Refusal();
       if (!Settled(*path) && pass < kMostPasses) continue;
       return Checked(std::move(*path));
     }
@@ -70,33 +70,45 @@ class WaypointPlan {
     return "leg " + std::to_string(i + 1) + " (waypoint " + std::to_string(i + 1) + " to " +
            std::to_string(Next(i) + 1) + ")";
   }
-  bool Refuse(std::string reason) {
-    reason_ = std::move(reason);
-    return false;
+
+  // Each step looks at all waypoints before it gives up, so that a person can mend them all at once.
+  void Refuse(std::string text) { problems_.push_back({0, false, std::move(text)}); }
+  void RefuseWaypoint(size_t i, const std::string& why) {
+    problems_.push_back({i, false, Name(i) + ": " + why});
+  }
+  void RefuseLeg(size_t i, const std::string& why) {
+    problems_.push_back({i, true, LegName(i) + ": " + why});
+  }
+  bool AllGood() const { return problems_.empty(); }
+  PathResult Refusal() const {
+    PathResult result{std::nullopt, problems_.front().text};
+    result.problems = problems_;
+    return result;
   }
 
   bool Check() {
     const size_t least = closed_ ? 3 : 2;
     if (waypoints_.size() < least) {
-      return Refuse((closed_ ? "a closed path needs at least 3 waypoints, not "
-                             : "a path needs at least 2 waypoints, not ") +
-                    std::to_string(waypoints_.size()));
+      Refuse((closed_ ? "a closed path needs at least 3 waypoints, not "
+                      : "a path needs at least 2 waypoints, not ") +
+             std::to_string(waypoints_.size()));
+      return false;
     }
     for (size_t i = 0; i < waypoints_.size(); ++i) {
       const Waypoint& point = waypoints_[i];
-      for (const double value :
-           {point.east_m, point.north_m, point.up_m, point.speed_m_s, point.turn_radius_m}) {
-        if (!std::isfinite(value)) return Refuse(Name(i) + ": a number is not finite");
-      }
-      if (point.turn_radius_m < 0) return Refuse(Name(i) + ": the turn radius is negative");
-      if (point.speed_m_s < limits_.min_speed_m_s || point.speed_m_s > limits_.max_speed_m_s) {
+      const auto numbers = {point.east_m, point.north_m, point.up_m, point.speed_m_s, point.turn_radius_m};
+      if (!std::ranges::all_of(numbers, [](double value) { return std::isfinite(value); })) {
+        RefuseWaypoint(i, "a number is not finite");
+      } else if (point.turn_radius_m < 0) {
+        RefuseWaypoint(i, "the turn radius is negative");
+      } else if (point.speed_m_s < limits_.min_speed_m_s || point.speed_m_s > limits_.max_speed_m_s) {
         std::ostringstream text;
-        text << Name(i) << ": " << point.speed_m_s << " m/s is not within what all can fly with a margin, "
+        text << point.speed_m_s << " m/s is not within what all can fly with a margin, "
              << limits_.min_speed_m_s << " to " << limits_.max_speed_m_s << " m/s";
-        return Refuse(text.str());
+        RefuseWaypoint(i, text.str());
       }
     }
-    return true;
+    return AllGood();
   }
 
   bool MakeLegs() {
@@ -105,7 +117,7 @@ class WaypointPlan {
       const Eigen::Vector2d from(waypoints_[i].east_m, waypoints_[i].north_m);
       const Eigen::Vector2d way =
           Eigen::Vector2d(waypoints_[Next(i)].east_m, waypoints_[Next(i)].north_m) - from;
-      if (way.norm() < kSamePlace_m) return Refuse(LegName(i) + ": both waypoints are at the same place");
+      if (way.norm() < kSamePlace_m) RefuseLeg(i, "both waypoints are at the same place");
       legs_.push_back({from, way.norm(), std::atan2(way.y(), way.x())});
     }
     for (size_t i = 0; i < waypoints_.size(); ++i) {
@@ -115,30 +127,29 @@ class WaypointPlan {
       const double before = legs_[(i + legs_.size() - 1) % legs_.size()].course_rad;
       const double turn = std::remainder(legs_[i].course_rad - before, 2 * M_PI);
       if (std::abs(turn) > kTurnsBack_rad) {
-        return Refuse(Name(i) + ": the path turns back on itself there, insert a waypoint to the side");
+        RefuseWaypoint(i, "the path turns back on itself there, insert a waypoint to the side");
       }
       corners_[i].request = {turn, waypoints_[i].turn_radius_m, 0};
     }
-    return true;
+    return AllGood();
   }
 
   /// The turn at a waypoint at some comfort.
-  bool PlanTurn(size_t i, double comfort) {
+  void PlanTurn(size_t i, double comfort) {
     Corner& corner = corners_[i];
-    if (corner.request.turn_rad == 0) return true;
-    TurnResult planned = skein::PlanTurn(corner.request, corner.motion, limits_, comfort);
-    if (!planned.reason.empty()) return Refuse(Name(i) + ": " + planned.reason);
+    if (corner.request.turn_rad == 0) return;
+    const TurnResult planned = skein::PlanTurn(corner.request, corner.motion, limits_, comfort);
+    if (!planned.reason.empty()) return RefuseWaypoint(i, planned.reason);
     corner.turn = planned.turn;
     corner.tangent_m = 0.5 * Chord(planned.turn) / std::cos(0.5 * planned.turn.turn_rad);
-    return true;
   }
 
   bool PlanTurns() {
     for (size_t i = 0; i < corners_.size(); ++i) {
       corners_[i].comfort = 1;
-      if (!PlanTurn(i, 1)) return false;
+      PlanTurn(i, 1);
     }
-    return true;
+    return AllGood();
   }
 
   /// Of a leg, what its two turns take at the same comfort.
@@ -157,9 +168,10 @@ class WaypointPlan {
       if (Taken(leg, 1) > length) {
         const double least = Taken(leg, 0);
         if (least > length) {
-          return Refuse(LegName(leg) + ": it is " + Metres(length) +
-                        " long and too short for its turns, which need " + Metres(least) +
-                        "; move the waypoints apart, fly slower or bring the slots closer together");
+          RefuseLeg(leg, "it is " + Metres(length) + " long and too short for its turns, which need " +
+                             Metres(least) +
+                             "; move the waypoints apart, fly slower or bring the slots closer together");
+          continue;
         }
         double low = 0, high = 1;
         for (int i = 0; i < 40; ++i) {
@@ -171,7 +183,7 @@ class WaypointPlan {
       for (const size_t i : {leg, Next(leg)}) corners_[i].comfort = std::min(corners_[i].comfort, comfort);
     }
     for (size_t i = 0; i < corners_.size(); ++i) PlanTurn(i, corners_[i].comfort);
-    return true;
+    return AllGood();
   }
 
   /// Altitude changes on the straight, where that is long enough, else from the middle of one turn to the
@@ -183,8 +195,8 @@ class WaypointPlan {
     const double least = ClimbLength(climb, std::max(from.speed_m_s, to.speed_m_s), limits_);
     if (straight_to - straight_from >= least) return Span{straight_from, straight_to};
     if (end_m - start_m >= kCornerClimb * least) return Span{start_m, end_m};
-    Refuse(LegName(leg) + ": too short for a climb or descent of " + Metres(std::abs(climb)) + ", it needs " +
-           Metres(least) + " of straight and has " + Metres(straight_to - straight_from));
+    RefuseLeg(leg, "too short for a climb or descent of " + Metres(std::abs(climb)) + ", it needs " +
+                       Metres(least) + " of straight and has " + Metres(straight_to - straight_from));
     return std::nullopt;
   }
 
@@ -198,8 +210,8 @@ class WaypointPlan {
       return Span{out_of_turn, into_turn};
     const double least = SpeedChangeLength(from, to, kCornerSpeedShare, limits_);
     if (end_m - start_m >= least) return Span{start_m, end_m};
-    Refuse(LegName(leg) + ": too short for the change of speed, it is " + Metres(end_m - start_m) +
-           " long and needs " + Metres(least));
+    RefuseLeg(leg, "too short for the change of speed, it is " + Metres(end_m - start_m) +
+                       " long and needs " + Metres(least));
     return std::nullopt;
   }
 
@@ -222,12 +234,13 @@ class WaypointPlan {
       const double end = corners_[to].middle_m();
       const auto climb = ClimbSpan(leg, start, end, straight_from, corners_[to].start_m);
       const auto change = SpeedSpan(leg, start, end, straight_from, corners_[to].start_m);
-      if (!climb || !change) return std::nullopt;
+      if (!climb || !change) continue;
       Add(up, climb->from_m, {waypoints_[leg].up_m});
       Add(up, climb->to_m, {waypoints_[to].up_m});
       Add(speed, change->from_m, {waypoints_[leg].speed_m_s});
       Add(speed, change->to_m, {waypoints_[to].speed_m_s});
     }
+    if (!AllGood()) return std::nullopt;
     const double length = chain.arc_m();
     if (closed_) {
       Wind(up, length);
@@ -260,25 +273,36 @@ class WaypointPlan {
     return settled;
   }
 
-  PathResult Checked(Path path) const {
+  PathResult Checked(Path path) {
     if (closed_ && path.lap_m() < LeastLoop(limits_)) {
-      return {std::nullopt, "the loop is " + Metres(path.lap_m()) +
-                                " long, the formation with its clearance " + Metres(LeastLoop(limits_)) +
-                                "; move the waypoints apart"};
+      Refuse("the loop is " + Metres(path.lap_m()) + " long, the formation with its clearance " +
+             Metres(LeastLoop(limits_)) + "; move the waypoints apart");
+      return Refusal();
     }
     const double lap = path.lap_m();
-    const auto excess = FirstExcess(path, limits_, lap, path.end_arc_m() + lap);
-    if (excess) return {std::nullopt, Where(excess->arc_m - lap) + ": " + excess->what};
-    if (closed_) return {std::move(path), ""};
-    return Loiter(path, path.end_arc_m(), path.end_arc_m() - path.start_arc_m(), limits_);
+    if (const auto excess = FirstExcess(path, limits_, lap, path.end_arc_m() + lap)) {
+      RefuseAt(excess->arc_m - lap, excess->what);
+      return Refusal();
+    }
+    PathResult result{std::move(path), ""};
+    if (!closed_) {
+      const Path& whole = *result.path;
+      result = Loiter(whole, whole.end_arc_m(), whole.end_arc_m() - whole.start_arc_m(), limits_);
+      if (!result.path) {
+        RefuseWaypoint(waypoints_.size() - 1, result.reason);
+        return Refusal();
+      }
+    }
+    for (const Corner& corner : corners_) result.waypoint_arcs_m.push_back(corner.middle_m());
+    return result;
   }
 
-  std::string Where(double arc_m) const {
+  void RefuseAt(double arc_m, const std::string& why) {
     for (size_t leg = 0; leg < legs_.size(); ++leg) {
-      if (arc_m < corners_[Next(leg)].start_m) return LegName(leg);
-      if (arc_m <= corners_[Next(leg)].end_m) return Name(Next(leg));
+      if (arc_m < corners_[Next(leg)].start_m) return RefuseLeg(leg, why);
+      if (arc_m <= corners_[Next(leg)].end_m) return RefuseWaypoint(Next(leg), why);
     }
-    return LegName(legs_.size() - 1);
+    RefuseLeg(legs_.size() - 1, why);
   }
 
   const std::vector<Waypoint>& waypoints_;
@@ -286,7 +310,7 @@ class WaypointPlan {
   const PathLimits& limits_;
   std::vector<Corner> corners_;
   std::vector<Leg> legs_;
-  std::string reason_;
+  std::vector<PathProblem> problems_;
 };
 
 }  // namespace
