@@ -3,6 +3,7 @@
 #include <cmath>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
+#include <optional>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_state_t.hpp>
 #include <skein/link_status_t.hpp>
@@ -14,8 +15,6 @@
 #include "bus/chunks.h"
 #include "bus/heartbeat.h"
 #include "bus/log_writer.h"
-#include "bus/simulated_executor.h"
-#include "controller/controller_node.h"
 #include "monitor/collision_monitor_node.h"
 #include "monitor/scenario_options.h"
 #include "simulator/simulator_node.h"
@@ -110,7 +109,7 @@ VehicleTick ToTick(const simulator::SimulatedVehicle& vehicle, const Listener& l
 struct Experiment::Impl {
   Impl(const config::Scenario& scenario, const ExperimentOptions& options)
       : transport(std::make_shared<lcm::LCM>("memq://")),
-        executor(transport),
+        executor(transport, options.start),
         simulator_bus(transport, "fleet-simulator", executor),
         controller_bus(transport, "formation-controller", executor),
         monitor_bus(transport, "collision-monitor", executor),
@@ -119,10 +118,15 @@ struct Experiment::Impl {
                                 : std::make_unique<bus::LogWriter>(transport, executor, options.log)),
         // The simulator first: what happens at one instant happens in the order in which the nodes were made.
         simulator(simulator_bus, {.scenario = scenario, .seed = options.seed}),
-        controller(controller_bus, {.scenario = scenario, .status_every_ticks = 1, .state_file = {}}),
-        monitor(monitor_bus, monitor::OptionsOf(scenario)),
+        controller(
+            controller_bus,
+            {.scenario = scenario, .status_every_ticks = 1, .state_file = {}, .state = options.formations}),
         listener(operator_bus),
         start(executor.Now()) {
+    for (bus::Bus* node : {&simulator_bus, &controller_bus, &monitor_bus, &operator_bus}) {
+      node->SetLogs(options.logs);
+    }
+    if (options.monitor) monitor.emplace(monitor_bus, monitor::OptionsOf(scenario));
     for (bus::Bus* node : {&simulator_bus, &controller_bus, &monitor_bus}) bus::StartHeartbeat(*node);
     if (options.on_start) options.on_start(operator_bus);
   }
@@ -136,7 +140,7 @@ struct Experiment::Impl {
   std::unique_ptr<bus::LogWriter> log;
   simulator::FleetSimulatorNode simulator;
   controller::FormationControllerNode controller;
-  monitor::CollisionMonitorNode monitor;
+  std::optional<monitor::CollisionMonitorNode> monitor;
   Listener listener;
   bus::Utime start;
   std::int64_t next_step = 0;
@@ -178,6 +182,7 @@ const Tick& Experiment::Step() {
 }
 
 bus::Bus& Experiment::operator_bus() { return impl_->operator_bus; }
+const controller::FormationControllerNode& Experiment::controller() const { return impl_->controller; }
 
 std::int64_t StepsIn(double duration_s) {
   return static_cast<std::int64_t>(std::floor(duration_s / bus::ToSeconds(kStep) + 1e-6)) + 1;

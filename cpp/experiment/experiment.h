@@ -8,16 +8,23 @@
 #include <string>
 
 #include "bus/bus.h"
+#include "bus/simulated_executor.h"
 #include "config/scenario.h"
+#include "controller/controller_node.h"
 #include "experiment/summary.h"
 #include "experiment/tick.h"
 
 namespace skein::experiment {
 
 struct ExperimentOptions {
-  std::optional<double> duration_s;          ///< the scenario's own when empty
-  std::uint64_t seed = 1;                    ///< of lossy and jittered links
-  std::filesystem::path log;                 ///< LCM log of everything on the bus; "" for none
+  std::optional<double> duration_s;                   ///< the scenario's own when empty
+  std::uint64_t seed = 1;                             ///< of lossy and jittered links
+  bus::Utime start = bus::SimulatedExecutor::kStart;  ///< of the simulated clock, t = 0
+  /// Formations in flight that the controller goes on with, instead of the scenario's.
+  std::optional<controller::ControllerState> formations;
+  bool monitor = true;        ///< false: no collision-monitor; LINK_STATUS is for the operator's bus to send
+  bool logs = true;           ///< whether events go into this process's log
+  std::filesystem::path log;  ///< LCM log of everything on the bus; "" for none
   std::function<void(const Tick&)> on_tick;  ///< called after each control step
   std::function<bool()> stop;                ///< asked after each control step; true ends the flight early
   /// Called before the first control step with the bus of an operator, to send CMD_* (at once, or later by
@@ -41,6 +48,7 @@ class Experiment {
 
   /// An operator's view of the bus.
   bus::Bus& operator_bus();
+  const controller::FormationControllerNode& controller() const;
 
  private:
   struct Impl;

@@ -27,12 +27,12 @@ std::optional<double> StillWithin(std::optional<double> since, double error, dou
   return since ? since : t_s;
 }
 
+}  // namespace
+
 bool InSlot(const slot_status_t& slot) {
   return std::max({std::abs(slot.forward_error_m), std::abs(slot.left_error_m), std::abs(slot.up_error_m)}) <=
          Settling::kPositionM;
 }
-
-}  // namespace
 
 SummaryBuilder::SummaryBuilder(const config::Scenario& scenario) {
   summary_.scenario = scenario.name;

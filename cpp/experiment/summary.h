@@ -21,6 +21,9 @@ struct Settling {
   std::optional<double> speed_s;  ///< against the speed of its slot
 };
 
+/// Within Settling::kPositionM on every axis.
+bool InSlot(const slot_status_t& slot);
+
 struct VehicleSummary {
   int id = 0;
   std::string callsign;
