@@ -8,6 +8,7 @@
 #include "bridge/command_gateway.h"
 #include "bridge/history.h"
 #include "bridge/live_frame.h"
+#include "bridge/previewer.h"
 
 namespace skein::bridge {
 
@@ -25,6 +26,7 @@ struct Backend {
   /// The bytes of GET /api/history.
   std::function<void(HistoryQuery, Reply<std::string>)> history;
   std::function<void(std::string channel, nlohmann::json body, Reply<CommandResult>)> command;
+  std::function<void(PreviewRequest, Previewer::Gone, Reply<PreviewReply>)> preview;
 };
 
 }  // namespace skein::bridge

@@ -2,12 +2,14 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bridge/path_line.h"
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
+#include "controller/fleet_picture.h"
 
 namespace skein::bridge {
 namespace {
@@ -73,6 +75,7 @@ void BusMirror::Hear(const fleet_state_t& state) {
 }
 
 void BusMirror::Hear(const formation_t& formation) {
+  flights_[formation.formation_id].formation = formation;
   Repeated& known = formations_[formation.formation_id];
   Json shown = ToJson(formation);
   // It is repeated with a new time each time.
@@ -84,6 +87,7 @@ void BusMirror::Hear(const formation_t& formation) {
 
 void BusMirror::Hear(const formation_status_t& status) {
   const std::int32_t id = status.formation_id;
+  flights_[id].status = status;
   fleet_.Take(id, status.slots);
   leader_arcs_m_[id] = status.leader_arc_m;
   Json& shown = statuses_[id];
@@ -97,6 +101,7 @@ void BusMirror::Hear(const formation_status_t& status) {
 }
 
 void BusMirror::Hear(const path_t& path) {
+  flights_[path.formation_id].path = path;
   const auto known = paths_.find(path.formation_id);
   if (known != paths_.end() && known->second.message.path_revision == path.path_revision) return;
   DrawnPath& drawn = paths_[path.formation_id];
@@ -158,6 +163,7 @@ void BusMirror::ForgetFormations() {
     const auto& [id, formation] = entry;
     if (Now() - formation.heard_at < kFormationGoneAfter) return false;
     statuses_.erase(id);
+    flights_.erase(id);
     leader_arcs_m_.erase(id);
     paths_.erase(id);
     fleet_.RemoveFormation(id);
@@ -218,6 +224,43 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
     frames.push_back(Status());
   }
   return frames;
+}
+
+experiment::FlightPicture BusMirror::Picture() const {
+  experiment::FlightPicture picture;
+  picture.utime = state_utime_;
+  for (const auto& [id, row] : fleet_.rows()) {
+    if (!row.info) continue;
+    experiment::FlightPicture::Vehicle vehicle{*row.info, std::nullopt, false};
+    if (row.state) {
+      controller::VehicleView view;
+      view.model = bus::ToVehicleModel(*row.info);
+      view.state = bus::ToVehicleState(*row.state);
+      view.state_utime = std::min(row.state->utime, state_utime_);
+      vehicle.state = view.At(state_utime_);
+    }
+    const auto is_lost = [&](std::int8_t link) { return link == link_status_t::LINK_LOST; };
+    if (row.link && vehicle.state && (is_lost(row.link->downlink) || is_lost(row.link->uplink))) {
+      vehicle.lost = true;
+      vehicle.state->climb_rad = 0;
+      if (is_lost(row.link->downlink)) {
+        vehicle.state->east_m = row.link->estimated_east_m;
+        vehicle.state->north_m = row.link->estimated_north_m;
+        vehicle.state->up_m = row.link->estimated_up_m;
+      }
+    }
+    picture.vehicles.push_back(std::move(vehicle));
+  }
+  for (const auto& [id, flight] : flights_) {
+    const bool whole = flight.formation.formation_id == id && flight.path.formation_id == id &&
+                       flight.status.formation_id == id;
+    if (!whole) continue;
+    controller::FormationState& state = picture.formations.emplace_back(flight);
+    // What Hold left is not on the bus, and only Resume asks for it.
+    if (flight.formation.hold) state.path_before_hold = flight.path;
+    state.arc_before_hold_m = flight.status.leader_arc_m;
+  }
+  return picture;
 }
 
 Json BusMirror::State() const {

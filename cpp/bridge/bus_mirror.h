@@ -14,7 +14,9 @@
 #include "bridge/json_messages.h"
 #include "bridge/live_frame.h"
 #include "bus/bus.h"
+#include "controller/state_file.h"
 #include "core/path.h"
+#include "experiment/preview.h"
 
 namespace skein::bridge {
 
@@ -38,6 +40,9 @@ class BusMirror {
   /// For a browser that has just come: hello and the last of each, in an order in which nothing refers to
   /// what comes later.
   std::vector<LiveFrame> Snapshot() const;
+
+  /// The flight as it is now, to fly a change ahead from.
+  experiment::FlightPicture Picture() const;
 
   /// GET /api/state and GET /api/vehicles.
   Json State() const;
@@ -98,6 +103,7 @@ class BusMirror {
   bus::Utime state_utime_ = 0;
   std::map<std::int32_t, Repeated> formations_;
   std::map<std::int32_t, Json> statuses_;
+  std::map<std::int32_t, controller::FormationState> flights_;  ///< the messages themselves, as they come
   std::map<std::int32_t, double> leader_arcs_m_;
   std::map<std::int32_t, DrawnPath> paths_;
   std::map<std::string, Repeated> heartbeats_;

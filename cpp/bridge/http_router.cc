@@ -5,6 +5,7 @@
 
 #include "bridge/byte_range.h"
 #include "bridge/history_query.h"
+#include "config/scenario.h"
 
 namespace skein::bridge {
 namespace {
@@ -14,6 +15,9 @@ using http::field;
 using http::status;
 
 constexpr std::string_view kJson = "application/json";
+constexpr std::string_view kCommand = "/api/command";
+constexpr std::string_view kFormationPreview = "/api/preview/formation";
+constexpr std::string_view kPathPreview = "/api/preview/path";
 constexpr std::string_view kTiles = "/tiles/";
 constexpr std::string_view kTileArchive = "/tiles.pmtiles";
 
@@ -84,16 +88,17 @@ std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::stri
     response.set(field::upgrade, "websocket");
     return response;
   }
-  const bool command = path == "/api/command";
-  if (!upgrade && (command ? head.method() != http::verb::post : !Reads(head))) {
+  const bool posts = path == kCommand || path == kFormationPreview || path == kPathPreview;
+  if (!upgrade && (posts ? head.method() != http::verb::post : !Reads(head))) {
     HttpResponse response = Plain(status::method_not_allowed, "Not with this method.");
-    response.set(field::allow, command ? "POST" : "GET, HEAD");
+    response.set(field::allow, posts ? "POST" : "GET, HEAD");
     return response;
   }
   return std::nullopt;
 }
 
-void HttpRouter::Answer(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {
+void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
+                        std::function<void(HttpResponse)> respond) const {
   const std::string_view path = Path(request);
   const auto respond_json = [this, respond](const std::string& json) {
     respond(Make(status::ok, kJson, json));
@@ -104,11 +109,14 @@ void HttpRouter::Answer(const HttpRequest& request, std::function<void(HttpRespo
     backend_.vehicles(respond_json);
   } else if (path == "/api/history") {
     History(request, std::move(respond));
-  } else if (path == "/api/command") {
+  } else if (path == kCommand) {
     Command(request, std::move(respond));
+  } else if (path == kFormationPreview || path == kPathPreview) {
+    Preview(request, gone, std::move(respond));
   } else if (path.starts_with("/api/")) {
-    respond(
-        Plain(status::not_found, "The API has /api/state, /api/vehicles, /api/history and /api/command."));
+    respond(Plain(status::not_found,
+                  "The API has /api/state, /api/vehicles, /api/history, /api/command, "
+                  "/api/preview/formation and /api/preview/path."));
   } else if (path.starts_with(kTiles)) {
     respond(Tile(request));
   } else if (path == kTileArchive) {
@@ -217,6 +225,30 @@ void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResp
   if (!command.contains("body")) return refuse("body: is missing");
   if (command.size() != 2) return refuse("only channel and body belong in the request");
   backend_.command(command["channel"], std::move(command["body"]), finish);
+}
+
+void HttpRouter::Preview(const HttpRequest& request, const Previewer::Gone& gone,
+                         std::function<void(HttpResponse)> respond) const {
+  const auto refuse = [&](status status, const char* reason) {
+    respond(Make(status, kJson, nlohmann::json{{"ok", false}, {"reason", reason}}.dump()));
+  };
+  const auto body = nlohmann::json::parse(request.body(), nullptr, false);
+  if (!body.is_object()) return refuse(status::bad_request, "the request is no JSON object");
+  PreviewRequest wanted;
+  try {
+    wanted = Path(request) == kPathPreview ? ParsePathPreview(body) : ParseFormationPreview(body);
+  } catch (const config::ConfigError& error) {
+    return refuse(status::bad_request, error.what());
+  }
+  backend_.preview(std::move(wanted), gone, [this, respond](const PreviewReply& reply) {
+    if (reply.busy) {
+      respond(
+          Make(status::service_unavailable, kJson,
+               R"({"ok":false,"reason":"other changes are being flown ahead: try again in some seconds"})"));
+    } else {
+      respond(Make(status::ok, kJson, reply.json));
+    }
+  });
 }
 
 }  // namespace skein::bridge

@@ -38,8 +38,10 @@ class HttpRouter {
   std::optional<HttpResponse> TurnAway(const HttpHead& head, std::string_view local_address,
                                        bool upgrade) const;
 
-  /// `respond` is called once, possibly at once.
-  void Answer(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
+  /// `respond` is called once, possibly at once. @param gone set by the caller when nobody waits any more:
+  /// what takes long is given up then, and perhaps never answered.
+  void Answer(const HttpRequest& request, const Previewer::Gone& gone,
+              std::function<void(HttpResponse)> respond) const;
 
   /// An answer with a sentence in it.
   HttpResponse Plain(boost::beast::http::status status, std::string text) const;
@@ -51,6 +53,8 @@ class HttpRouter {
   HttpResponse TileArchive(const HttpRequest& request) const;
   void History(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
   void Command(const HttpRequest& request, std::function<void(HttpResponse)> respond) const;
+  void Preview(const HttpRequest& request, const Previewer::Gone& gone,
+               std::function<void(HttpResponse)> respond) const;
 
   AccessRules access_;
   StaticFiles files_;

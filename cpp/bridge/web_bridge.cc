@@ -51,6 +51,14 @@ Backend WebBridge::MakeBackend(bus::LiveExecutor& executor) {
       });
     });
   };
+  backend.preview = [this, &executor](const PreviewRequest& request, const Previewer::Gone& gone,
+                                      const Backend::Reply<PreviewReply>& reply) {
+    executor.Post([this, request, gone, reply] {
+      previewer_.Fly(request, mirror_.Picture(), gone, [this, reply](const PreviewReply& result) {
+        boost::asio::post(web_context_, [reply, result] { reply(result); });
+      });
+    });
+  };
   return backend;
 }
 

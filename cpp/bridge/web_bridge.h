@@ -14,6 +14,7 @@
 #include "bridge/bus_mirror.h"
 #include "bridge/command_gateway.h"
 #include "bridge/map_tiles.h"
+#include "bridge/previewer.h"
 #include "bridge/web_server.h"
 #include "bus/live_executor.h"
 
@@ -29,8 +30,8 @@ struct BridgeOptions {
 };
 
 /// The bus on one side, browsers on the other, a thread each. Mirror and gateway live on the bus's thread,
-/// the web server on its own; they share nothing but frames that never change, and hand work over by posting
-/// it. README.md draws it.
+/// the web server on its own, flights ahead on two more; they share nothing but frames that never change, and
+/// hand work over by posting it. README.md draws it.
 class WebBridge {
  public:
   /// Serves at once. Throws bus::StartError when it cannot listen. `executor` is that of `bus`, and does not
@@ -51,6 +52,7 @@ class WebBridge {
   WebServer server_;
   std::uint16_t port_;
   std::thread web_thread_;
+  Previewer previewer_;  ///< last: its threads end before what they post to
 };
 
 }  // namespace skein::bridge

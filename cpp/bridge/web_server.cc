@@ -32,8 +32,9 @@ constexpr seconds kHeaderTime{20};
 constexpr seconds kBodyTime{20};
 // The largest file takes 30 s over 2 Mbit/s.
 constexpr seconds kResponseTime{60};
-// Only a fault of ours takes longer: commands are given up after 2 s.
-constexpr seconds kAnswerTime{10};
+// Only a fault of ours takes longer: commands are given up after 2 s, flights ahead after 5 s, and one of
+// those waits for four others at most.
+constexpr seconds kAnswerTime{30};
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1u << 20;
 
@@ -161,7 +162,7 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
       if (!status) break;
       response = router_.Plain(*status, "The request cannot be read: " + error.message() + ".");
     } else if (!response) {
-      response = co_await Answer(request);
+      response = co_await Answer(request, stream.socket());
     }
     // A body that was not read would be taken for the next request.
     keep_alive = whole && request.keep_alive();
@@ -172,19 +173,33 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
   co_await Close(stream);
 }
 
-asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request) {
+asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, Tcp::socket& from) {
   // The answer may come after this connection is gone, so what it touches is shared.
   struct Pending {
-    asio::steady_timer answered;
+    asio::steady_timer changed;
     std::optional<HttpResponse> response;
+    bool heard_more = false;
+    Previewer::Gone gone = std::make_shared<std::atomic<bool>>(false);
   };
   const auto pending =
       std::make_shared<Pending>(Pending{asio::steady_timer(context_, kAnswerTime), std::nullopt});
-  router_.Answer(request, [pending](HttpResponse response) {
+  router_.Answer(request, pending->gone, [pending](HttpResponse response) {
     pending->response = std::move(response);
-    pending->answered.cancel();
+    pending->changed.cancel();
   });
-  if (!pending->response) co_await pending->answered.async_wait(kAwait);
+  if (pending->response) co_return std::move(*pending->response);
+  from.async_wait(Tcp::socket::wait_read, [pending](Error error) {
+    pending->heard_more = !error;
+    if (!error) pending->changed.cancel();
+  });
+  co_await pending->changed.async_wait(kAwait);
+  Error error;
+  if (!pending->response && pending->heard_more) {
+    // More than nothing is the next request. Nothing is an end: a browser that has thought better of it.
+    *pending->gone = from.available(error) == 0;
+    co_await pending->changed.async_wait(kAwait);
+  }
+  from.cancel(error);
   if (!pending->response)
     co_return router_.Plain(http::status::internal_server_error, "The bridge found no answer.");
   co_return std::move(*pending->response);
