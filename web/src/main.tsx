@@ -7,6 +7,7 @@ import { Connection } from "./link/connection";
 import { decodeFrame } from "./link/frames";
 import { signal } from "@preact/signals";
 import type { MapAccess } from "./map/map_access";
+import { PayloadRequests } from "./payload/payload_requests";
 import { Shell } from "./shell/shell";
 import type { Station } from "./shell/station";
 import { followTheme } from "./state/settings";
@@ -45,6 +46,7 @@ const station: Station = {
   store,
   commands,
   api: new Api(document.baseURI),
+  payloads: new PayloadRequests(store, commands),
   map: signal<MapAccess | null>(null),
   retry: () => {
     connection.retryNow();

@@ -12,6 +12,8 @@ interface CommandButtonProps {
   /** For switches: what telemetry says. */
   checked?: boolean;
   disabled?: boolean;
+  /** For a control in a grid, which has a way of its own to it. */
+  tabIndex?: number;
 }
 
 const kShowRefusal_ms = 12_000;
@@ -44,6 +46,7 @@ export function CommandButton(props: CommandButtonProps) {
         title={props.label}
         aria-busy={waiting.value}
         disabled={props.disabled ?? false}
+        tabIndex={props.tabIndex}
         onClick={press}
         {...role}
       >

@@ -3,7 +3,7 @@ import type { Store } from "../state/store";
 import { clock, duration } from "../units/format";
 
 /** formation_status_t's modes. */
-const kModes = ["Assembling", "In formation", "Avoiding", "Rejoining", "Holding", "Waiting"] as const;
+export const kModes = ["Assembling", "In formation", "Avoiding", "Rejoining", "Holding", "Waiting"] as const;
 /** More formations than this have a line each instead of a card. */
 const kMostCards = 3;
 const kShapes: Readonly<Record<string, string>> = {

@@ -3,12 +3,14 @@ import type { Signal } from "@preact/signals";
 import type { Api } from "../link/api";
 import type { Commands } from "../link/commands";
 import type { MapAccess } from "../map/map_access";
+import type { PayloadRequests } from "../payload/payload_requests";
 import type { Store } from "../state/store";
 
 export interface Station {
   readonly store: Store;
   readonly commands: Commands;
   readonly api: Api;
+  readonly payloads: PayloadRequests;
   /** Null until the map is there. */
   readonly map: Signal<MapAccess | null>;
   /** Tries to connect at once. */

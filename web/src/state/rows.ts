@@ -13,6 +13,8 @@ export interface UavRow {
   id: number;
   callsign: string;
   has_payload: boolean;
+  /** 0: none. */
+  formation_id: number;
   /** 0..3, -1: not judged yet. */
   level: number;
   /** link_status_t's numbers, 3: not judged. */
@@ -45,6 +47,7 @@ export function uavRow(fleet: Fleet, vehicle: Vehicle, now_ms: number): UavRow {
     id: vehicle.id,
     callsign: vehicle.callsign,
     has_payload: vehicle.has_payload,
+    formation_id: status === null ? 0 : status.formation_id[s],
     level: status === null ? -1 : status.level[s],
     downlink,
     uplink: status === null ? kUnknown : status.uplink[s],
