@@ -1,9 +1,11 @@
 /** All panels of the page, one entry each. A new panel is a new line here. */
 import type { ComponentType } from "preact";
 import { FormationPanel } from "../formation/formation_panel";
+import { ChartsPanel } from "../charts/charts_panel";
 import { EventList } from "../panels/event_list";
-import { FormationTable } from "../panels/formation_table";
 import { PlanPanel } from "../plan/plan_panel";
+import { PayloadPanel } from "../payload/payload_panel";
+import { FormationTable } from "../table/formation_table";
 import type { IconName } from "./icon";
 import type { Station } from "./station";
 
@@ -27,10 +29,14 @@ export interface DrawerSpec extends PanelSpec {
 export const kDrawerPanels: readonly DrawerSpec[] = [
   { id: "formation", title: "Formation", icon: "formation", shortcut: "e", view: FormationPanel },
   { id: "plan", title: "Plan", icon: "plan", shortcut: "p", view: PlanPanel },
+  { id: "payload", title: "Payload", view: PayloadPanel, icon: "payload", shortcut: "y" },
 ];
 
 /** Beside the map on the right. */
 export const kSidePanels: readonly PanelSpec[] = [{ id: "events", title: "Events", view: EventList }];
 
 /** Below the map. */
-export const kDockPanels: readonly PanelSpec[] = [{ id: "table", title: "Formation", view: FormationTable }];
+export const kDockPanels: readonly PanelSpec[] = [
+  { id: "table", title: "Table", view: FormationTable },
+  { id: "charts", title: "Charts", view: ChartsPanel },
+];

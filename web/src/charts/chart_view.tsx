@@ -1,0 +1,153 @@
+import { useSignal } from "@preact/signals";
+import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
+import type uPlot from "uplot";
+import { identityOf, readColours } from "../map/colours";
+import { theme } from "../state/settings";
+import { clock, fixed, kNone } from "../units/format";
+import { chartData } from "./chart_data";
+import type { ChartSpec } from "./chart_list";
+import { makePlot, showData } from "./chart_plot";
+import { cursor_s } from "./charts_state";
+import { drawMarks, marksNear, type EventMark } from "./event_marks";
+import type { FlightSeries } from "./flight_series";
+import { listenForGestures, type Gestures } from "./gestures";
+import type { Span } from "./time_window";
+
+interface ChartViewProps {
+  chart: ChartSpec;
+  series: FlightSeries;
+  span: Span;
+  marks: readonly EventMark[];
+  /** Rises with each redrawing that is due. */
+  revision: number;
+  gestures: Gestures;
+  select: (span: Span) => void;
+  /** Plots that are on the screen, for the picture. */
+  plots: Map<string, uPlot>;
+}
+
+/** How near the pointer must be to a mark [px]. */
+const kNear_px = 6;
+
+export function ChartView(props: ChartViewProps) {
+  const { chart, series, span, marks, revision, plots } = props;
+  const root = useRef<HTMLDivElement>(null);
+  const plot = useRef<uPlot | null>(null);
+  const newest = useRef(props);
+  newest.current = props;
+  const told = useSignal<{ marks: EventMark[]; left_px: number } | null>(null);
+  const ids = series.ids.join();
+  const unit = chart.unit();
+  const theme_now = theme.value;
+
+  useLayoutEffect(() => {
+    const element = root.current;
+    if (element === null) return;
+    const colours = readColours();
+    const now = () => newest.current;
+    const made = makePlot(element, chart, now().series.ids, colours, () => now().span, {
+      onCursor: (t_s) => {
+        cursor_s.value = t_s;
+      },
+      onSelect: (selected) => {
+        now().select(selected);
+      },
+      drawOver: (self) => {
+        drawMarks(self, now().marks, colours);
+      },
+    });
+    plot.current = made;
+    plots.set(chart.column, made);
+    const deaf = listenForGestures(made.over, {
+      zoom: (factor, at) => {
+        now().gestures.zoom(factor, at);
+      },
+      pan: (part) => {
+        now().gestures.pan(part);
+      },
+      reset: () => {
+        now().gestures.reset();
+      },
+    });
+    const point = (event: PointerEvent) => {
+      const left_px = event.clientX - made.over.getBoundingClientRect().left;
+      const within_s = made.posToVal(left_px + kNear_px, "x") - made.posToVal(left_px, "x");
+      const near = marksNear(now().marks, made.posToVal(left_px, "x"), within_s);
+      told.value = near.length === 0 ? null : { marks: near, left_px: left_px + made.over.offsetLeft };
+    };
+    const leave = () => {
+      told.value = null;
+    };
+    made.over.addEventListener("pointermove", point);
+    made.over.addEventListener("pointerleave", leave);
+    const observer = new ResizeObserver(() => {
+      made.setSize({ width: element.clientWidth, height: element.clientHeight });
+    });
+    observer.observe(element);
+    return () => {
+      observer.disconnect();
+      deaf();
+      plots.delete(chart.column);
+      made.destroy();
+    };
+  }, [chart, ids, unit, theme_now, plots, told]);
+
+  useEffect(() => {
+    const made = plot.current;
+    if (made !== null)
+      showData(made, chartData(newest.current.series, chart, newest.current.span, made.over.clientWidth));
+  }, [chart, ids, unit, theme_now, revision, series, span.from_s, span.to_s, marks]);
+
+  return (
+    <figure class="chart" data-chart={chart.column}>
+      <figcaption>
+        {chart.title} <small>{unit}</small>
+      </figcaption>
+      <div class="chart-plot" ref={root} />
+      <Values chart={chart} series={series} revision={revision} />
+      {told.value !== null && (
+        <div class="chart-tip" style={{ left: `${told.value.left_px}px` }} role="tooltip">
+          {told.value.marks.map((mark) => (
+            <p key={`${mark.t_s}${mark.text}`}>
+              <time>T+ {clock(mark.t_s)}</time> {mark.text}
+            </p>
+          ))}
+        </div>
+      )}
+    </figure>
+  );
+}
+
+interface ValuesProps {
+  chart: ChartSpec;
+  series: FlightSeries;
+  revision: number;
+}
+
+/** The value of each curve at the cursor; without one, the newest. */
+function Values({ chart, series }: ValuesProps) {
+  const at = cursor_s.value === null ? series.count - 1 : series.indexAt(cursor_s.value);
+  return (
+    <ul
+      class="chart-values"
+      aria-label={`${chart.title}, ${cursor_s.value === null ? "now" : "at the cursor"}`}
+    >
+      {series.ids.map((id) => {
+        const value = series.values(id, chart.column)?.[at] ?? NaN;
+        return (
+          <li key={id}>
+            <span class={`chip identity-${identityOf(id)}`}>{id}</span>
+            <span class="chart-value">{Number.isNaN(value) ? kNone : shown(chart, value)}</span>
+          </li>
+        );
+      })}
+    </ul>
+  );
+}
+
+function shown(chart: ChartSpec, si: number): string {
+  const value = chart.value(si);
+  return chart.period === undefined
+    ? fixed(value, chart.decimals)
+    : String(Math.round(value) % chart.period).padStart(3, "0");
+}
