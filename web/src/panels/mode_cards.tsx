@@ -16,7 +16,12 @@ const kShapes: Readonly<Record<string, string>> = {
 export function ModeCards({ store }: { store: Store }) {
   const statuses = [...store.statuses.value.values()].sort((a, b) => a.formation_id - b.formation_id);
   return (
-    <ul class={statuses.length > kMostCards ? "modes compact" : "modes"} aria-label="Formations">
+    <ul
+      class={statuses.length > kMostCards ? "modes compact" : "modes"}
+      aria-label="Formations"
+      // Where they need scrolling, the keyboard must get there.
+      tabIndex={0}
+    >
       {statuses.map((status) => (
         <ModeCard key={status.formation_id} store={store} status={status} />
       ))}

@@ -55,7 +55,7 @@ export function PayloadPanel({ station }: PanelProps) {
       <div class="payload-buttons">
         <CommandButton
           class="button wide"
-          label="Switch the payloads on"
+          label="Switch on the payloads"
           disabled={carriers.length === 0}
           command={() => payloads.request(carriers, true)}
         >
@@ -63,7 +63,7 @@ export function PayloadPanel({ station }: PanelProps) {
         </CommandButton>
         <CommandButton
           class="button wide"
-          label="Switch the payloads off"
+          label="Switch off the payloads"
           disabled={carriers.length === 0}
           command={() => payloads.request(carriers, false)}
         >

@@ -66,6 +66,7 @@ export const kColumns: readonly Column[] = [
     width_px: 30,
     align: "centre",
     sort: "level",
+    class: "pinned pinned-level",
     cell: (row) => <Lamp level={row.level} />,
   },
   {
@@ -78,7 +79,7 @@ export const kColumns: readonly Column[] = [
     align: "left",
     sort: "id",
     rising: true,
-    class: "uav-name",
+    class: "pinned pinned-uav uav-name",
     cell: (row) => (
       <>
         <Chip id={row.id} />

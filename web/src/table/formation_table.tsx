@@ -29,7 +29,8 @@ export function FormationTable({ station }: PanelProps) {
   list.update(store.fleet, wish, store.formations.value, store.statuses.value, now_ms, held);
 
   const hidden = hidden_columns.value;
-  const simulated = store.heartbeats.value.has(kSimulator) && !store.silent_nodes.value.includes(kSimulator);
+  // One that has fallen silent is missed, not gone: what it was asked last and how that ended stays to be seen.
+  const simulated = store.heartbeats.value.has(kSimulator);
   const wanted = kColumns.filter(({ id }) => !hidden.includes(id));
   const needed_px = [...wanted, kLinkColumn].reduce((sum, column) => sum + column.width_px, 0);
   const columns = simulated && needed_px <= width_px ? [...wanted, kLinkColumn] : wanted;

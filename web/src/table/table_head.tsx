@@ -40,7 +40,7 @@ export function TableHead({ columns, order, setOrder }: TableHeadProps) {
                     );
                   }}
                 >
-                  <HeadText column={column} />
+                  <span class="visually-hidden">Sort by</span> <HeadText column={column} />
                   {sorted && (
                     <svg class="sort-mark" viewBox="0 0 8 8" aria-hidden="true">
                       <path d={up ? "M1 6L4 2L7 6" : "M1 2L4 6L7 2"} />
