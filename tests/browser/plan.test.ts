@@ -30,6 +30,8 @@ afterAll(async () => {
 });
 
 const field = (name: string) => screen.page.getByRole("textbox", { name });
+/** A button of the panel: others have buttons of the same name. */
+const tool = (name: string) => screen.page.locator(".plan").getByRole("button", { name, exact: true });
 const handle = (number: number) => screen.page.locator(".plan-handle.waypoint").nth(number - 1);
 const rows = () => screen.page.locator(".waypoint-row");
 const legs = () => screen.page.locator(".leg-row").allInnerTexts();
@@ -57,7 +59,7 @@ async function middleOf(number: number): Promise<[number, number]> {
 async function look(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
   await screen.page.setViewportSize({ width, height });
   await screen.page.emulateMedia({ colorScheme: theme });
-  const fit = screen.button("Fit");
+  const fit = tool("Fit");
   if (await fit.isVisible()) await fit.click();
   await screen.page.screenshot({ path: `${kResults}plan-${name}-${width}x${height}-${theme}.png` });
 }
@@ -148,7 +150,7 @@ test("a climb that is too steep is shown at its waypoint, and blocks sending unt
   });
   expect(await screen.page.locator(".problem-row").first().innerText()).toMatch(/climb/);
   await look("impossible", 1280, 720, "light");
-  await screen.button("Review…").click();
+  await tool("Review…").click();
   expect(await screen.button("Send to Alpha").isDisabled()).toBe(true);
   await look("review-impossible", 1280, 720, "dark");
   await screen.button("Back to planning").click();
@@ -159,7 +161,7 @@ test("a climb that is too steep is shown at its waypoint, and blocks sending unt
 test("reviewed and sent, it is read back from the bus as it was sent, and the leader turns onto it", async () => {
   explain();
   const before = await told();
-  await screen.button("Review…").click();
+  await tool("Review…").click();
   const review = () => screen.text(".plan-review");
   await until(async () => {
     expect(await review()).toContain("A new path of 3 waypoints.");
@@ -170,8 +172,8 @@ test("reviewed and sent, it is read back from the bus as it was sent, and the le
   await screen.button("Send to Alpha").click();
   await until(async () => expect(await review()).toContain("Flown as reviewed"));
   await look("flown", 1920, 1080, "dark");
-  await screen.button("Done").click();
-  expect(await screen.button("Review…").isDisabled()).toBe(true);
+  await tool("Done").click();
+  expect(await tool("Review…").isDisabled()).toBe(true);
 
   const after = await told();
   const [path] = after.paths;
@@ -188,7 +190,7 @@ test("reviewed and sent, it is read back from the bus as it was sent, and the le
 test.each([
   ["GeoJSON", "geojson"],
   ["KML", "kml"],
-  ["QGroundControl plan", "plan"],
+  ["QGroundControl", "plan"],
 ])("saved as %s and opened again it is the path that is flown", async (name, extension) => {
   explain();
   const summary = screen.page.locator("summary", { hasText: "Files" });
@@ -196,7 +198,7 @@ test.each([
   const [saved] = await Promise.all([screen.page.waitForEvent("download"), screen.button(name).click()]);
   expect(saved.suggestedFilename()).toBe(`Alpha.${extension}`);
   const buffer = readFileSync(await saved.path());
-  await screen.button("Clear").click();
+  await tool("Clear").click();
   await until(async () => expect(await rows().count()).toBe(0));
   const picker = screen.page.getByLabel("File with a path");
   await picker.setInputFiles({ name: saved.suggestedFilename(), mimeType: "", buffer });
@@ -204,7 +206,7 @@ test.each([
     expect(await rows().count()).toBe(3);
     expect(await screen.text(".plan-note")).toContain("is on the map as a draft.");
     // Nothing differs from what is flown.
-    expect(await screen.button("Review…").isDisabled()).toBe(true);
+    expect(await tool("Review…").isDisabled()).toBe(true);
   });
 });
 
@@ -219,12 +221,12 @@ test("a file for another place is refused with its distance", async () => {
   await until(async () =>
     expect(await screen.text(".plan-note")).toMatch(/lies \d+ km from the fleet's origin/),
   );
-  await screen.button("Dismiss").click();
+  await tool("Dismiss").click();
 });
 
 test("another path of another operator is pointed out, and can be taken", async () => {
   explain();
-  await screen.button("Loop").click();
+  await tool("Loop").click();
   const response = await fetch(`${kPageUrl}api/command`, {
     method: "POST",
     body: JSON.stringify({ channel: "CMD_PATH", body: { formation_id: 1, waypoints: [] } }),
@@ -240,8 +242,8 @@ test("another path of another operator is pointed out, and can be taken", async 
 
 test("without a mouse a path is built from the keyboard", async () => {
   explain();
-  await screen.button("Clear").press("Enter");
-  await screen.button("Add").press("Enter");
+  await tool("Clear").press("Enter");
+  await tool("Add").press("Enter");
   await type("East of waypoint 1", "2500");
   await type("North of waypoint 1", "9000");
   await screen.button("Select waypoint 1").press("Shift+ArrowRight");

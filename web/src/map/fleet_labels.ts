@@ -97,6 +97,7 @@ export class FleetLabels {
   }
 
   private place({ uavs, leaders, waypoints, detail }: Labelled, now_ms: number): void {
+    const planned_id = this.store.planned_id.peek();
     const candidates: Candidate[] = [
       ...uavs.map((sight) => ({
         // One that has a label keeps it before others of the same importance.
@@ -108,7 +109,9 @@ export class FleetLabels {
         caption: () => this.captionOf(sight, now_ms),
       })),
       ...leaders.map((leader) => ({ weight: -1, caption: () => this.captionOfLeader(leader) })),
-      ...waypoints.map((waypoint) => ({ weight: -2, caption: () => captionOfWaypoint(waypoint) })),
+      ...waypoints
+        .filter(({ formation_id }) => formation_id !== planned_id)
+        .map((waypoint) => ({ weight: -2, caption: () => captionOfWaypoint(waypoint) })),
     ];
     const captions = candidates
       .sort((a, b) => b.weight - a.weight)

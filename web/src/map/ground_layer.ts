@@ -69,6 +69,7 @@ export class GroundLayer {
     context.setLineDash([]);
 
     context.fillStyle = colours.path;
+    if (path.formation_id === this.store.planned_id.peek()) return;
     for (const waypoint of path.waypoints) {
       const { x, y } = pixelOf(view, frame, waypoint.east_m, waypoint.north_m, waypoint.up_m);
       context.translate(x, y);

@@ -22,6 +22,7 @@ interface FileToolsProps {
 /** Paths from and into files; a file can also be dropped anywhere on the page. */
 export function FileTools({ station, planner }: FileToolsProps) {
   const report = useSignal<Report | null>(null);
+  const open = useSignal(false);
   const picker = useRef<HTMLInputElement>(null);
   const frame = station.map.value?.frame() ?? null;
   const plan = planner.draft.value?.plan.value;
@@ -29,6 +30,7 @@ export function FileTools({ station, planner }: FileToolsProps) {
   const take = useRef<(file: File) => Promise<void>>(() => Promise.resolve());
   take.current = async (file) => {
     report.value = await readInto(planner, station, file);
+    open.value = true;
   };
   useEffect(() => {
     // Without this, the browser would leave the page for the file.
@@ -57,7 +59,14 @@ export function FileTools({ station, planner }: FileToolsProps) {
     download(`${name}.${kind}`, mime, writePathFile(kind, plan, line, frame, name));
   };
   return (
-    <>
+    <details
+      class="plan-details"
+      open={open.value}
+      onToggle={(event) => {
+        open.value = event.currentTarget.open;
+      }}
+    >
+      <summary>Files: open and save</summary>
       <div class="plan-fields">
         <button
           type="button"
@@ -120,7 +129,7 @@ export function FileTools({ station, planner }: FileToolsProps) {
           </button>
         </div>
       )}
-    </>
+    </details>
   );
 }
 

@@ -23,7 +23,7 @@ export const kFileKinds: readonly { kind: FileKind; name: string; mime: string; 
   },
   {
     kind: "plan",
-    name: "QGroundControl plan",
+    name: "QGroundControl",
     mime: "application/json",
     altitudes: "Altitudes are above home, which is the local origin.",
   },

@@ -144,10 +144,7 @@ function PlanEditor({ station, planner, draft }: PartProps & PanelProps) {
           </details>
         </>
       )}
-      <details class="plan-details">
-        <summary>Files: open and save</summary>
-        <FileTools station={station} planner={planner} />
-      </details>
+      <FileTools station={station} planner={planner} />
       <PlanFoot planner={planner} draft={draft} />
     </>
   );

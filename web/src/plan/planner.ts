@@ -84,6 +84,7 @@ export class Planner {
       const plan = draft?.plan.value;
       // What is flown already needs no flight ahead.
       const changed = draft?.changed.value === true;
+      this.store.planned_id.value = id;
       if (id === null || plan === undefined) return;
       untracked(() => {
         if (this.review.value !== plan) this.endReview();
@@ -100,6 +101,7 @@ export class Planner {
       stop();
       this.preview.stop();
       this.drawing.value = false;
+      this.store.planned_id.value = null;
     };
   }
 

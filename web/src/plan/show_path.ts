@@ -2,8 +2,9 @@ import L from "leaflet";
 import type { MapAccess } from "../map/map_access";
 import type { PathPlan } from "./path_plan";
 
-/** For arcs and marks beyond the outermost waypoints. */
-const kMargin_px = 60;
+const kMargin_px = 50;
+/** For arcs beyond the outermost waypoints, of the path's own size. */
+const kArcs = 0.15;
 const kClosest_zoom = 15;
 
 /** Shows the whole path in the part of the map that no panel covers. */
@@ -15,7 +16,7 @@ export function showPath(map: MapAccess | null, plan: PathPlan): void {
   if (!bounds.isValid()) return;
   const whole = map.leaflet.getContainer().getBoundingClientRect();
   const free = map.freeArea();
-  map.leaflet.fitBounds(bounds, {
+  map.leaflet.fitBounds(bounds.pad(kArcs), {
     paddingTopLeft: [free.left - whole.left + kMargin_px, free.top - whole.top + kMargin_px],
     paddingBottomRight: [whole.right - free.right + kMargin_px, whole.bottom - free.bottom + kMargin_px],
     maxZoom: kClosest_zoom,

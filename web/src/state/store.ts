@@ -35,6 +35,8 @@ export class Store {
   readonly selection = signal<ReadonlySet<number>>(new Set());
   /** The one that was selected last; null without any. */
   readonly selected_id = computed(() => [...this.selection.value].at(-1) ?? null);
+  /** The formation whose path somebody plans: the planner draws its waypoints. */
+  readonly planned_id = signal<number | null>(null);
   /** The time (performance.now), a few times a second: what goes with time or shows `fleet` reads it, and is drawn again. */
   readonly now_ms = signal(performance.now());
 
