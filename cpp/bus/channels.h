@@ -8,6 +8,7 @@ inline constexpr const char* kFleetState = "FLEET_STATE";
 inline constexpr const char* kCmdFleet = "CMD_FLEET";
 inline constexpr const char* kCmdLink = "CMD_LINK";
 inline constexpr const char* kCmdPayload = "CMD_PAYLOAD";
+inline constexpr const char* kCmdSimulation = "CMD_SIMULATION";
 inline constexpr const char* kCmdFormation = "CMD_FORMATION";
 inline constexpr const char* kCmdPath = "CMD_PATH";
 inline constexpr const char* kFormation = "FORMATION";

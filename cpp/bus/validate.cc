@@ -256,4 +256,9 @@ bool Valid(const proximity_t& proximity) {
          Chunk(proximity.chunk, proximity.chunk_count) && ValidItems(proximity.vehicles);
 }
 
+bool Valid(const simulation_command_t& command) {
+  return ValidRequest(command) && OneOf(command.action, simulation_command_t::ACTION_LOAD) &&
+         Text(command.scenario) && Sequence(command.seed);
+}
+
 }  // namespace skein::bus

@@ -15,6 +15,7 @@
 #include <skein/path_t.hpp>
 #include <skein/payload_command_t.hpp>
 #include <skein/proximity_t.hpp>
+#include <skein/simulation_command_t.hpp>
 
 /// Whether a decoded message keeps what its .lcm file promises: finite numbers of a size that no sum
 /// overflows, ids, chunks and enumerations in range, text that is UTF-8 without control characters. Handlers
@@ -39,5 +40,6 @@ bool Valid(const path_command_t& command);
 bool Valid(const path_t& path);
 bool Valid(const payload_command_t& command);
 bool Valid(const proximity_t& proximity);
+bool Valid(const simulation_command_t& command);
 
 }  // namespace skein::bus

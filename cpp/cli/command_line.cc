@@ -31,6 +31,7 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   AddFormation();
   AddPath();
   AddPayload();
+  AddScenario();
   AddStatus();
 }
 
@@ -121,6 +122,20 @@ void CommandLine::AddPayload() {
       };
     });
   }
+}
+
+void CommandLine::AddScenario() {
+  CLI::App* group = Group(app_, "scenario", "Scenarios of the simulated fleet");
+  group->add_subcommand("list", "Those that this machine finds by name")->callback([this] {
+    command_ = [](Station&, std::ostream& out) { ListScenarios(out); };
+  });
+  CLI::App* load = group->add_subcommand("load", "Fly another scenario, from its start");
+  load->add_option("name", scenario_, "As `list` names it, never a path")->required();
+  const auto start = [this] {
+    command_ = [this](Station& station, std::ostream& out) { StartScenario(station, scenario_, out); };
+  };
+  load->callback(start);
+  group->add_subcommand("restart", "Fly the same scenario again, from its start")->callback(start);
 }
 
 void CommandLine::AddStatus() {

@@ -25,6 +25,7 @@ class CommandLine {
   void AddFormation();
   void AddPath();
   void AddPayload();
+  void AddScenario();
   void AddStatus();
 
   CLI::App app_;
@@ -35,6 +36,7 @@ class CommandLine {
   StatusOptions status_;
   std::vector<std::string> vehicles_;
   std::string file_;
+  std::string scenario_;
   int id_ = 0;
   bool json_ = false;
 };

@@ -7,6 +7,7 @@
 #include <skein/link_command_t.hpp>
 #include <skein/path_command_t.hpp>
 #include <skein/payload_command_t.hpp>
+#include <skein/simulation_command_t.hpp>
 
 #include "bus/channels.h"
 #include "bus/conversions.h"
@@ -216,6 +217,31 @@ void ClearPath(Station& station, int id, std::ostream& out) {
   command.formation_id = id;
   Done(out, fmt::format("formation {} flies straight on", id),
        station.Ask(channel::kCmdPath, command, kController));
+}
+
+void ListScenarios(std::ostream& out) {
+  for (const config::ScenarioEntry& entry : config::ListScenarios()) {
+    if (entry.problem.empty()) {
+      out << fmt::format("{:<20} {:>5} UAVs  {}\n", entry.bare_name, entry.vehicles, entry.name);
+    } else {
+      out << fmt::format("{:<20} cannot be flown: {}\n", entry.bare_name, entry.problem);
+    }
+  }
+}
+
+void StartScenario(Station& station, const std::string& name, std::ostream& out) {
+  const bus::Utime before = station.Roster().start_utime;
+  simulation_command_t command;
+  command.action = name.empty() ? simulation_command_t::ACTION_RESTART : simulation_command_t::ACTION_LOAD;
+  command.scenario = name;
+  command.seed = 0;
+  const std::string remark = station.Ask(channel::kCmdSimulation, command, kSimulator);
+  const auto started = [&] { return station.picture().roster->start_utime != before; };
+  if (!station.WaitUntil(started, kLongestPeriod)) {
+    throw Failure("accepted, but no fleet was heard to start anew for 2.5 s");
+  }
+  const fleet_roster_t& roster = *station.picture().roster;
+  Done(out, fmt::format("{} starts anew with {} UAVs", roster.scenario, roster.vehicles.size()), remark);
 }
 
 void ShowStatus(Station& station, const StatusOptions& options, std::ostream& out) {

@@ -42,6 +42,11 @@ void UploadPath(Station& station, const PathOptions& options, std::ostream& out)
 /// Takes the path away: straight on.
 void ClearPath(Station& station, int id, std::ostream& out);
 
+/// Those that this machine finds by name.
+void ListScenarios(std::ostream& out);
+/// The simulated fleet starts anew: with the same scenario when `name` is "".
+void StartScenario(Station& station, const std::string& name, std::ostream& out);
+
 struct StatusOptions {
   bool watch = false;
   bool json = false;

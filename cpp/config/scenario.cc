@@ -56,7 +56,7 @@ class ScenarioReader {
 
   Scenario Read() {
     scenario_.name = root_.At("name").Text();
-    root_.Text("description", "none");  // for people; checked to be a text
+    if (const auto description = root_.Find("description")) scenario_.description = description->Text();
     scenario_.duration_s = root_.Number("duration_s", {0.05, 1e6}, scenario_.duration_s);
     scenario_.origin = ReadOrigin(root_.At("origin"));
     scenario_.ceiling_m = root_.Number("ceiling_m", kUpM, scenario_.ceiling_m);

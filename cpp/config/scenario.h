@@ -100,6 +100,7 @@ struct TimelineEntry {
 
 struct Scenario {
   std::string name;
+  std::string description;  ///< for people; "" when there is none
   std::filesystem::path file;
   double duration_s = 300;  ///< of flight-experiment; a live scenario goes on
   Origin origin;
@@ -117,5 +118,27 @@ Scenario LoadScenario(const std::filesystem::path& file);
 /// A path given by file name, or by the bare name of one that ships ("triangle", "triangle.json"): where it
 /// is. Throws ConfigError naming the folders that were searched.
 std::filesystem::path FindScenario(const std::string& name);
+
+/// Where the scenario of a bare name is, never of a path: beside the file `own`, or where FindScenario looks.
+/// Throws ConfigError.
+std::filesystem::path FindNamedScenario(const std::string& name, const std::filesystem::path& own = {});
+
+/// What a fleet flies, when all that is known of it is the scenario's "name" in the roster: the file `own`,
+/// read again, when that is the one, else one beside it or where FindScenario looks. None when there is no
+/// such.
+std::optional<Scenario> ReadScenarioOfFleet(const std::string& name, const std::filesystem::path& own);
+
+/// A scenario as a list of them shows it.
+struct ScenarioEntry {
+  std::string bare_name;  ///< what FindScenario takes
+  std::string name;       ///< in the file, shown to people
+  std::string description;
+  std::size_t vehicles = 0;
+  double duration_s = 0;
+  std::string problem;  ///< why it cannot be flown, "" when it can; then the others are empty
+};
+
+/// All that FindScenario finds by a bare name, in order of it.
+std::vector<ScenarioEntry> ListScenarios();
 
 }  // namespace skein::config

@@ -57,6 +57,7 @@ void FormationControllerNode::OnRoster(const fleet_roster_t& roster) {
   });
   if (again)
     events_.Tell(event_t::INFO, "fleet_restarted", "the fleet has started anew; so do the formations");
+  TakeScenario(roster.scenario, again);
   if (!RestoreState()) StartScenario();
 }
 

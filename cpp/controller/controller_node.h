@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <skein/fleet_roster_t.hpp>
@@ -24,6 +25,9 @@ namespace skein::controller {
 struct ControllerOptions {
   /// Formations, paths and airspace to start with; none: formations come by CMD_FORMATION.
   std::optional<config::Scenario> scenario;
+  /// The scenario of a fleet that has started anew, by the name in its roster; none: not found. Empty:
+  /// `scenario` is for every flight.
+  std::function<std::optional<config::Scenario>(const std::string& name)> find_scenario;
   /// FORMATION_STATUS goes out each so many ticks of FLEET_STATE, >= 1.
   int status_every_ticks = 4;
   /// Where the state of all formations is kept, so that a controller that died picks up where it was; empty:
@@ -49,6 +53,7 @@ class FormationControllerNode {
   void OnLinkStatus(const link_status_t& status);
 
   // What starts and ends a flight (formation_start.cc).
+  void TakeScenario(const std::string& name, bool again);
   void StartScenario();
   std::string StartFlight(const config::FormationConfig& config);
   std::optional<VirtualLeader> LeaderOverFleet(const std::vector<Slot>& slots, std::string& reason) const;

@@ -50,6 +50,21 @@ PathResult ScenarioPath(const config::FormationConfig& config, const PathLimits&
 
 }  // namespace
 
+void FormationControllerNode::TakeScenario(const std::string& name, bool again) {
+  if (!options_.find_scenario || name.empty()) return;
+  if (!again && options_.scenario && options_.scenario->name == name) return;
+  auto found = options_.find_scenario(name);
+  // At the start an operator may well have meant a scenario that the fleet does not know by name.
+  if (!found && !again) return;
+  if (!found) {
+    events_.Tell(event_t::CAUTION, "scenario_missing",
+                 fmt::format("there is no scenario \"{}\" here: its UAVs hold course and altitude until "
+                             "formations are set",
+                             name));
+  }
+  options_.scenario = std::move(found);
+}
+
 void FormationControllerNode::StartScenario() {
   if (!options_.scenario) return;
   for (const config::FormationConfig& config : options_.scenario->formations) {

@@ -14,8 +14,13 @@ int main(int argc, char** argv) {
       "Keeps the state of all formations here, to go on with after a restart in the same flight");
   return node.Run(argc, argv, [&](skein::bus::Bus& bus, skein::bus::LiveExecutor&) {
     skein::controller::ControllerOptions options;
-    if (!scenario.empty())
-      options.scenario = skein::config::LoadScenario(skein::config::FindScenario(scenario));
+    if (!scenario.empty()) {
+      const auto file = skein::config::FindScenario(scenario);
+      options.scenario = skein::config::LoadScenario(file);
+      options.find_scenario = [file](const std::string& name) {
+        return skein::config::ReadScenarioOfFleet(name, file);
+      };
+    }
     options.state_file = state_file;
     return std::make_shared<skein::controller::FormationControllerNode>(bus, options);
   });

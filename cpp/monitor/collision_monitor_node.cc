@@ -82,7 +82,39 @@ CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitor
   bus.executor().Every(bus::kSecond / options.rate_hz, [this] { Sweep(); });
 }
 
+void CollisionMonitorNode::StartFlight(const fleet_roster_t& roster) {
+  const bool again = start_utime_ != 0;
+  start_utime_ = roster.start_utime;
+  if (!again && roster.scenario == options_.scenario) return;
+  // At the start an operator may well have meant a scenario that the fleet does not know by name.
+  if (!TakeScenario(roster.scenario, again) && !again) return;
+  // Nothing of what was in the air before is there any more.
+  const Utime now = bus_.executor().Now();
+  uavs_.clear();
+  levels_ = AlertLevels();
+  levels_from_ = now + kSettling;
+  membership_ = Membership(now, options_.strangers, options_.formations);
+}
+
+bool CollisionMonitorNode::TakeScenario(const std::string& name, bool again) {
+  if (!options_.find_options || name.empty()) return false;
+  const auto found = options_.find_options(name);
+  if (!found && !again) return false;
+  if (!found) {
+    events_.Tell(event_t::CAUTION, "scenario_missing",
+                 fmt::format("there is no scenario \"{}\" here: strangers are kept apart by the usual "
+                             "thresholds, not by its own",
+                             name));
+  }
+  const CollisionMonitorOptions taken = found.value_or(CollisionMonitorOptions());
+  options_.scenario = name;
+  options_.strangers = taken.strangers;
+  options_.formations = taken.formations;
+  return true;
+}
+
 void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_chunks) {
+  if (roster.start_utime != start_utime_) StartFlight(roster);
   const Utime now = bus_.executor().Now();
   std::map<int, const vehicle_info_t*> listed;
   for (const vehicle_info_t& info : roster.vehicles) listed[info.id] = &info;

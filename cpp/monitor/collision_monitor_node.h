@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
+#include <optional>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/fleet_state_t.hpp>
@@ -18,8 +20,12 @@ namespace skein::monitor {
 
 struct CollisionMonitorOptions {
   int rate_hz = 1;                               ///< of PROXIMITY, 1 .. 10
+  std::string scenario;                          ///< its name, "" when there is none
   ProximityLimits strangers = StrangerLimits();  ///< between UAVs that are not in one formation
   std::vector<KnownFormation> formations;        ///< until FORMATION says more
+  /// The options of a fleet that has started anew, by the scenario's name in its roster; none: not found.
+  /// Empty: these are for every flight.
+  std::function<std::optional<CollisionMonitorOptions>(const std::string& name)> find_options;
   LinkTimes link_times;
   UncertaintyGrowth uncertainty;
 };
@@ -37,6 +43,8 @@ class CollisionMonitorNode {
 
  private:
   void HearRoster(const fleet_roster_t& roster, int missing_chunks);
+  void StartFlight(const fleet_roster_t& roster);
+  bool TakeScenario(const std::string& name, bool again);
   void HearState(const fleet_state_t& state);
   void HearCommands(const fleet_command_t& commands);
 
@@ -57,7 +65,8 @@ class CollisionMonitorNode {
   Membership membership_;
   AlertLevels levels_;
   std::map<int, WatchedUav> uavs_;
-  bus::Utime levels_from_;  ///< by then every FORMATION has been heard
+  bus::Utime start_utime_ = 0;  ///< of the flight; 0: no roster yet
+  bus::Utime levels_from_;      ///< by then every FORMATION has been heard
   std::int64_t sweep_ = 0;
   std::int64_t link_sequence_ = 0;
   bus::Utime links_sent_ = 0;

@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "bus/node_main.h"
@@ -20,7 +21,12 @@ int main(int argc, char** argv) {
   return node.Run(argc, argv, [&](skein::bus::Bus& bus, skein::bus::LiveExecutor&) {
     skein::monitor::CollisionMonitorOptions options;
     if (!scenario.empty()) {
-      options = skein::monitor::OptionsOf(skein::config::LoadScenario(skein::config::FindScenario(scenario)));
+      const auto file = skein::config::FindScenario(scenario);
+      options = skein::monitor::OptionsOf(skein::config::LoadScenario(file));
+      options.find_options = [file](const std::string& name) {
+        const auto found = skein::config::ReadScenarioOfFleet(name, file);
+        return found ? std::optional(skein::monitor::OptionsOf(*found)) : std::nullopt;
+      };
     }
     options.rate_hz = rate_hz;
     return std::make_shared<skein::monitor::CollisionMonitorNode>(bus, options);

@@ -4,6 +4,7 @@ namespace skein::monitor {
 
 CollisionMonitorOptions OptionsOf(const config::Scenario& scenario) {
   CollisionMonitorOptions options;
+  options.scenario = scenario.name;
   options.strangers = scenario.strangers;
   for (const config::FormationConfig& formation : scenario.formations) {
     KnownFormation& known = options.formations.emplace_back();

@@ -30,9 +30,9 @@ std::vector<SimulatedVehicle> MakeFleet(const SimulatorOptions& options, bus::Ut
   return fleet;
 }
 
-fleet_roster_t MakeRoster(const config::Scenario& scenario, bus::Utime start, std::int64_t session_id) {
+fleet_roster_t MakeRoster(const config::Scenario& scenario, bus::Utime start) {
   fleet_roster_t roster{};
-  roster.session_id = session_id;
+  roster.session_id = start;
   roster.scenario = scenario.name;
   roster.start_utime = start;
   roster.origin_latitude_deg = scenario.origin.latitude_deg;
@@ -70,45 +70,54 @@ LinkChange ToLinkChange(const link_command_t& command) {
 
 }  // namespace
 
+FleetSimulatorNode::Flight::Flight(const SimulatorOptions& options, bus::Utime start, bus::Events& events)
+    : start_utime(start),
+      fleet(MakeFleet(options, start)),
+      links(fleet,
+            [&events](const SimulatedVehicle& vehicle, const std::string& code, const std::string& text) {
+              events.Tell(event_t::INFO, code, text, {.vehicle_id = vehicle.id()});
+            }),
+      roster(bus::Split(MakeRoster(options.scenario, start))),
+      roster_sent(roster.size()) {
+  for (std::size_t i = 0; i < fleet.size(); ++i) index[fleet[i].id()] = i;
+  links.AddTimeline(options.scenario.timeline, start, options.scenario.timeline_repeat_s);
+}
+
 FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& options)
     : bus_(bus),
+      options_(options),
       events_(bus),
       inbox_(bus),
-      start_utime_(bus.executor().Now()),
-      fleet_(MakeFleet(options, start_utime_)),
-      links_(fleet_,
-             [this](const SimulatedVehicle& vehicle, const std::string& code, const std::string& text) {
-               events_.Tell(event_t::INFO, code, text, {.vehicle_id = vehicle.id()});
-             }),
-      roster_(bus::Split(MakeRoster(options.scenario, start_utime_, bus.session_id()))),
-      roster_sent_(roster_.size()) {
-  for (std::size_t i = 0; i < fleet_.size(); ++i) index_[fleet_[i].id()] = i;
-  links_.AddTimeline(options.scenario.timeline, start_utime_, options.scenario.timeline_repeat_s);
-
+      flight_(std::make_unique<Flight>(options_, bus.executor().Now(), events_)) {
   bus_.Subscribe<fleet_command_t>(bus::channel::kCmdFleet,
                                   [this](const fleet_command_t& command) { Command(command); });
   inbox_.Obey<link_command_t>(bus::channel::kCmdLink,
                               [this](const link_command_t& command) { return SetLink(command); });
   inbox_.Obey<payload_command_t>(bus::channel::kCmdPayload,
                                  [this](const payload_command_t& command) { return SwitchPayload(command); });
-  bus_.executor().At(start_utime_, [this] { Tick(); });
+  inbox_.Obey<simulation_command_t>(
+      bus::channel::kCmdSimulation,
+      [this](const simulation_command_t& command) { return StartAnew(command); });
+  bus_.executor().At(start_utime(), [this] { Tick(); });
   bus_.executor().Every(
-      kPeriod, [this] { Tick(); }, start_utime_);
+      kPeriod, [this] { Tick(); }, start_utime());
 }
 
 void FleetSimulatorNode::Tick() {
-  const std::int64_t due = (bus_.executor().Now() - start_utime_) / kPeriod;
-  if (due <= tick_) return;
+  const bus::Utime since_start = bus_.executor().Now() - start_utime();
+  if (since_start < 0) return;  // a flight that begins at the next tick
+  const std::int64_t due = since_start / kPeriod;
+  if (due <= tick()) return;
   // A process that was held up makes up for the flight, not for the reports that nobody can use any more.
-  while (tick_ < due) Fly(tick_ + 1);
+  while (tick() < due) Fly(tick() + 1);
   PublishRoster();
   PublishState();
 }
 
 void FleetSimulatorNode::Fly(std::int64_t tick) {
-  tick_ = tick;
-  const bus::Utime utime = start_utime_ + tick * kPeriod;
-  for (SimulatedVehicle& vehicle : fleet_) {
+  flight_->tick = tick;
+  const bus::Utime utime = start_utime() + tick * kPeriod;
+  for (SimulatedVehicle& vehicle : flight_->fleet) {
     const bool payload_before = vehicle.payload_on();
     vehicle.FlyTo(utime);
     if (vehicle.payload_on() != payload_before) {
@@ -117,27 +126,28 @@ void FleetSimulatorNode::Fly(std::int64_t tick) {
                    {.vehicle_id = vehicle.id()});
     }
   }
-  links_.RunUntil(utime);
+  flight_->links.RunUntil(utime);
 }
 
 void FleetSimulatorNode::PublishRoster() {
-  if (roster_sent_ == roster_.size() && tick_ >= roster_due_) {
-    roster_sent_ = 0;
-    roster_due_ = tick_ + kTicksPerRoster;
-    for (fleet_roster_t& chunk : roster_) chunk.utime = start_utime_ + tick_ * kPeriod;
+  Flight& flight = *flight_;
+  if (flight.roster_sent == flight.roster.size() && tick() >= flight.roster_due) {
+    flight.roster_sent = 0;
+    flight.roster_due = tick() + kTicksPerRoster;
+    for (fleet_roster_t& chunk : flight.roster) chunk.utime = start_utime() + tick() * kPeriod;
   }
-  for (int i = 0; i < kRosterChunksPerTick && roster_sent_ < roster_.size(); ++i) {
-    bus_.Publish(bus::channel::kFleetRoster, roster_[roster_sent_++]);
+  for (int i = 0; i < kRosterChunksPerTick && flight.roster_sent < flight.roster.size(); ++i) {
+    bus_.Publish(bus::channel::kFleetRoster, flight.roster[flight.roster_sent++]);
   }
 }
 
 void FleetSimulatorNode::PublishState() {
   fleet_state_t state{};
-  state.utime = start_utime_ + tick_ * kPeriod;
-  state.session_id = bus_.session_id();
-  state.tick = tick_;
-  state.vehicles.reserve(fleet_.size());
-  for (SimulatedVehicle& vehicle : fleet_) {
+  state.utime = start_utime() + tick() * kPeriod;
+  state.session_id = start_utime();
+  state.tick = tick();
+  state.vehicles.reserve(fleet().size());
+  for (SimulatedVehicle& vehicle : flight_->fleet) {
     if (const auto heard = vehicle.Telemetry()) state.vehicles.push_back(*heard);
   }
   state.num_vehicles = static_cast<int>(state.vehicles.size());
@@ -145,6 +155,8 @@ void FleetSimulatorNode::PublishState() {
 }
 
 void FleetSimulatorNode::Command(const fleet_command_t& command) {
+  // Who answers a tick that is still to come means the flight before this one.
+  if (command.state_tick > tick()) return;
   if (command.session_id == command_session_id_ && command.request_id > command_request_id_ + 1) {
     bus_.CountGaps(command.request_id - command_request_id_ - 1);
   }
@@ -173,7 +185,7 @@ bus::Answer FleetSimulatorNode::SetLink(const link_command_t& command) {
   }
   if (command.loss < 0 || command.loss > 1) return bus::Answer::Refused("loss must be 0 to 1");
   if (command.duration_s < 0) return bus::Answer::Refused("the duration must not be negative");
-  links_.Add(ToLinkChange(command), bus_.executor().Now(), command.start_utime);
+  flight_->links.Add(ToLinkChange(command), bus_.executor().Now(), command.start_utime);
   return bus::Answer::Accepted();
 }
 
@@ -192,9 +204,30 @@ bus::Answer FleetSimulatorNode::SwitchPayload(const payload_command_t& command) 
   return bus::Answer::Accepted(unreachable.empty() ? "" : "the uplink is cut: " + unreachable);
 }
 
+bus::Answer FleetSimulatorNode::StartAnew(const simulation_command_t& command) {
+  const bool load = command.action == simulation_command_t::ACTION_LOAD;
+  SimulatorOptions options = options_;
+  if (command.seed > 0) options.seed = static_cast<std::uint64_t>(command.seed);
+  try {
+    const auto& own = options_.scenario.file;
+    // Read again to restart, too: what the file says now is what the other nodes will find.
+    if (load || !own.empty()) {
+      options.scenario = config::LoadScenario(load ? config::FindNamedScenario(command.scenario, own) : own);
+    }
+  } catch (const config::ConfigError& error) {
+    return bus::Answer::Refused(error.what());
+  }
+  options_ = std::move(options);
+  flight_ = std::make_unique<Flight>(options_, start_utime() + (tick() + 1) * kPeriod, events_);
+  events_.Tell(event_t::INFO, "simulation_started",
+               "the simulation starts anew: " + options_.scenario.name + ", " +
+                   std::to_string(fleet().size()) + (fleet().size() == 1 ? " UAV" : " UAVs"));
+  return bus::Answer::Accepted();
+}
+
 SimulatedVehicle* FleetSimulatorNode::Find(int vehicle_id) {
-  const auto found = index_.find(vehicle_id);
-  return found == index_.end() ? nullptr : &fleet_[found->second];
+  const auto found = flight_->index.find(vehicle_id);
+  return found == flight_->index.end() ? nullptr : &flight_->fleet[found->second];
 }
 
 }  // namespace skein::simulator

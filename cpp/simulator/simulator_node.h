@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/fleet_state_t.hpp>
 #include <skein/link_command_t.hpp>
 #include <skein/payload_command_t.hpp>
+#include <skein/simulation_command_t.hpp>
 #include <unordered_map>
 #include <vector>
 
@@ -25,7 +27,8 @@ struct SimulatorOptions {
 
 /// A fleet of UAVs with their data links, and the gateway that puts them on the bus. Tick n stands for
 /// start_utime() + n * kPeriod; at each one the UAVs fly on, then the links change as planned, then the UAVs
-/// report.
+/// report. CMD_SIMULATION begins a new flight at the next tick, which is its tick 0: to everybody else it is
+/// as if the process had been started again.
 class FleetSimulatorNode {
  public:
   static constexpr bus::Utime kPeriod = 50'000;
@@ -35,13 +38,27 @@ class FleetSimulatorNode {
   FleetSimulatorNode(const FleetSimulatorNode&) = delete;
   FleetSimulatorNode& operator=(const FleetSimulatorNode&) = delete;
 
-  bus::Utime start_utime() const { return start_utime_; }
+  bus::Utime start_utime() const { return flight_->start_utime; }
   /// The last one that was flown; -1 before the first.
-  std::int64_t tick() const { return tick_; }
+  std::int64_t tick() const { return flight_->tick; }
   /// The true fleet, in the order of the scenario.
-  const std::vector<SimulatedVehicle>& fleet() const { return fleet_; }
+  const std::vector<SimulatedVehicle>& fleet() const { return flight_->fleet; }
 
  private:
+  /// All that a new flight begins without.
+  struct Flight {
+    Flight(const SimulatorOptions& options, bus::Utime start_utime, bus::Events& events);
+
+    bus::Utime start_utime;  ///< also the session on FLEET_ROSTER and FLEET_STATE
+    std::int64_t tick = -1;
+    std::vector<SimulatedVehicle> fleet;
+    std::unordered_map<int, std::size_t> index;
+    LinkSchedule links;
+    std::vector<fleet_roster_t> roster;  ///< in chunks
+    std::size_t roster_sent;             ///< how many of them in this round
+    std::int64_t roster_due = 0;         ///< tick of the next round
+  };
+
   void Tick();
   void Fly(std::int64_t tick);
   void PublishRoster();
@@ -49,19 +66,14 @@ class FleetSimulatorNode {
   void Command(const fleet_command_t& command);
   bus::Answer SetLink(const link_command_t& command);
   bus::Answer SwitchPayload(const payload_command_t& command);
+  bus::Answer StartAnew(const simulation_command_t& command);
   SimulatedVehicle* Find(int vehicle_id);
 
   bus::Bus& bus_;
+  SimulatorOptions options_;
   bus::Events events_;
   bus::CommandInbox inbox_;
-  bus::Utime start_utime_;
-  std::int64_t tick_ = -1;
-  std::vector<SimulatedVehicle> fleet_;
-  std::unordered_map<int, std::size_t> index_;
-  LinkSchedule links_;
-  std::vector<fleet_roster_t> roster_;  ///< in chunks
-  std::size_t roster_sent_;             ///< how many of them in this round
-  std::int64_t roster_due_ = 0;         ///< tick of the next round
+  std::unique_ptr<Flight> flight_;
   std::int64_t command_session_id_ = 0;
   std::int64_t command_request_id_ = 0;
 };

@@ -36,5 +36,40 @@ TEST(FindScenario, RefusesAPathThatLeadsNowhere) {
   EXPECT_THROW(FindScenario("/"), ConfigError);
 }
 
+TEST(FindNamedScenario, TakesABareNameAndNeverAPath) {
+  setenv("SKEIN_SCENARIOS", SKEIN_SOURCE_DIR "/scripts/scenarios", 1);
+  EXPECT_EQ(FindNamedScenario("triangle"), SKEIN_SOURCE_DIR "/scripts/scenarios/triangle.json");
+  for (const char* name :
+       {"", ".", "..", "../scenarios/triangle", "/etc/passwd", "triangle.json/", "tri angle"}) {
+    EXPECT_THROW(FindNamedScenario(name), ConfigError) << name;
+  }
+  EXPECT_THROW(FindNamedScenario("no-such"), ConfigError);
+}
+
+TEST(FindNamedScenario, LooksBesideTheOwnFileFirst) {
+  const ScenarioFile own("{}");
+  EXPECT_EQ(FindNamedScenario(own.path().stem(), own.path()), own.path());
+}
+
+TEST(ReadScenarioOfFleet, FindsItByTheNameInTheFile) {
+  setenv("SKEIN_SCENARIOS", SKEIN_SOURCE_DIR "/scripts/scenarios", 1);
+  const std::filesystem::path own = SKEIN_SOURCE_DIR "/scripts/scenarios/turn.json";
+  EXPECT_EQ(ReadScenarioOfFleet("Turn of 180 degrees", own)->vehicles.size(),
+            LoadScenario(own).vehicles.size());
+  EXPECT_EQ(ReadScenarioOfFleet("Two formations that meet", own)->file.stem(), "crossing");
+  EXPECT_FALSE(ReadScenarioOfFleet("A fleet of somebody else", own));
+}
+
+TEST(ListScenarios, DescribesThoseThatShip) {
+  setenv("SKEIN_SCENARIOS", SKEIN_SOURCE_DIR "/scripts/scenarios", 1);
+  bool hundred = false;
+  for (const ScenarioEntry& entry : ListScenarios()) {
+    EXPECT_EQ(entry.problem, "") << entry.bare_name;
+    EXPECT_FALSE(entry.description.empty()) << entry.bare_name;
+    hundred = hundred || (entry.bare_name == "hundred" && entry.vehicles == 100);
+  }
+  EXPECT_TRUE(hundred);
+}
+
 }  // namespace
 }  // namespace skein::config

@@ -59,11 +59,12 @@ class ControllerNodeTest : public testing::Test {
 
   void Start() { node_ = std::make_unique<FormationControllerNode>(bus_, options_); }
 
-  void SendRoster() {
+  void SendRoster(const std::string& scenario = "") {
     fleet_roster_t roster{};
     roster.utime = executor_.Now();
     roster.session_id = 1;
     roster.start_utime = start_utime_;
+    roster.scenario = scenario;
     for (const auto& [id, uav] : uavs_) {
       roster.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel(), true));
     }
@@ -321,6 +322,27 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   executor.Deliver();
   EXPECT_TRUE(restarted.flights().at(1).waypoints().empty());
   std::filesystem::remove(options_.state_file);
+}
+
+TEST_F(ControllerNodeTest, TakesTheScenarioThatANewFlightNames) {
+  config::Scenario other = *options_.scenario;
+  other.name = "Other";
+  other.formations[0].name = "Other triangle";
+  options_.find_scenario = [&](const std::string& name) {
+    return name == "Other" ? std::optional(other) : std::nullopt;
+  };
+  Start();
+  SendRoster("Unknown");
+  EXPECT_EQ(node_->flights().at(1).config().name, "Triangle") << "at the start it is the operator's choice";
+  Fly(3);
+  start_utime_ = executor_.Now();
+  SendRoster("Other");
+  EXPECT_EQ(node_->flights().at(1).config().name, "Other triangle");
+  Fly(3);
+  start_utime_ = executor_.Now();
+  SendRoster("Unknown");
+  EXPECT_TRUE(node_->flights().empty());
+  EXPECT_EQ(codes_.back(), "scenario_missing");
 }
 
 TEST(StateFile, RefusesWhatIsDamaged) {

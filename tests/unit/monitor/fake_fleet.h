@@ -44,6 +44,8 @@ class FakeFleet {
 
   std::map<int, FakeUav> uavs;
   std::map<int, std::vector<int>> formations;  ///< id -> members
+  std::string scenario;
+  bus::Utime start_utime = 0;  ///< of the flight; 0: that of this
   bool commands = true;
   bool telemetry = true;
 
@@ -110,7 +112,8 @@ class FakeFleet {
     fleet_roster_t roster;
     roster.utime = now;
     roster.session_id = 1;
-    roster.start_utime = start_;
+    roster.scenario = scenario;
+    roster.start_utime = start_utime == 0 ? start_ : start_utime;
     for (const auto& [id, uav] : uavs) {
       if (uav.in_roster)
         roster.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel{}, true));

@@ -201,6 +201,33 @@ TEST_F(MonitorProximity, UavThatLeavesClearsItsPairs) {
   EXPECT_EQ(heard_.Proximity(1)->level, 0);
 }
 
+TEST_F(MonitorProximity, BeginsANewFlightWithoutTheAlertsOfTheOneBeforeAndByItsOwnThresholds) {
+  fleet_.Add(1, 0, 0, 1000);
+  fleet_.Add(2, 300, 0, 1000);  // inside the cylinder of strangers
+  CollisionMonitorOptions options;
+  options.find_options = [](const std::string& name) -> std::optional<CollisionMonitorOptions> {
+    if (name != "Close") return std::nullopt;
+    CollisionMonitorOptions close;
+    close.strangers.radius_m = close.strangers.d_mod_m = 100;
+    return close;
+  };
+  Start(options);
+  Run(10);
+  EXPECT_EQ(heard_.Proximity(1)->level, 3);
+
+  fleet_.scenario = "Close";
+  fleet_.start_utime = executor_.Now();
+  Run(5);
+  EXPECT_EQ(heard_.Proximity(1)->level, 0);
+  EXPECT_TRUE(heard_.Events("proximity_cleared").empty()) << "nothing has become better";
+
+  fleet_.scenario = "Unknown";
+  fleet_.start_utime = executor_.Now();
+  Run(5);
+  EXPECT_EQ(heard_.Events("scenario_missing").size(), 1u);
+  EXPECT_EQ(heard_.Proximity(1)->level, 3);
+}
+
 TEST_F(MonitorProximity, NeedsSensibleOptions) {
   CollisionMonitorOptions options;
   options.rate_hz = 0;

@@ -57,6 +57,7 @@ void ForEveryType(Visit visit) {
   visit.template operator()<path_command_t>();
   visit.template operator()<path_t>();
   visit.template operator()<payload_command_t>();
+  visit.template operator()<simulation_command_t>();
   visit.template operator()<proximity_t>();
 }
 

@@ -207,4 +207,12 @@ proximity_t Sample() {
   return proximity;
 }
 
+template <>
+simulation_command_t Sample() {
+  auto command = Request<simulation_command_t>();
+  command.action = simulation_command_t::ACTION_LOAD;
+  command.scenario = "triangle";
+  return command;
+}
+
 }  // namespace skein::bus::testing
