@@ -25,6 +25,8 @@ struct Backend {
   std::function<void(Reply<std::string>)> vehicles;
   /// The bytes of GET /api/history.
   std::function<void(HistoryQuery, Reply<std::string>)> history;
+  /// An EVENT of the bridge itself.
+  std::function<void(std::string code, std::string text)> tell;
   std::function<void(std::string channel, nlohmann::json body, Reply<CommandResult>)> command;
   std::function<void(PreviewRequest, Previewer::Gone, Reply<PreviewReply>)> preview;
 };

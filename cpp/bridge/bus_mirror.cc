@@ -60,13 +60,18 @@ BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
 void BusMirror::Hear(const fleet_roster_t& roster) {
   const bool same_session = !roster_shown_.is_null() && roster.session_id == roster_.session_id;
   if (same_session && roster.revision == roster_.revision) return;
-  if (!same_session) fleet_.StartAnew();
+  if (!same_session) StartAnew();
   if (roster.start_utime != roster_.start_utime) history_.Clear();
   roster_ = roster;
   fleet_.Take(roster.vehicles);
   roster_shown_ = ToJson(roster);
   sink_(TextFrame(Dump(roster_shown_), "roster"));
   SendStatusSoon();
+}
+
+void BusMirror::StartAnew() {
+  fleet_.StartAnew();
+  while (!formations_.empty()) RemoveFormation(formations_.begin()->first);
 }
 
 void BusMirror::Hear(const fleet_state_t& state) {
@@ -159,17 +164,21 @@ void BusMirror::ForgetFormations() {
   // still be flown.
   const auto controller = heartbeats_.find(kController);
   if (controller == heartbeats_.end() || Now() - controller->second.heard_at > 2 * bus::kSecond) return;
-  std::erase_if(formations_, [&](const auto& entry) {
-    const auto& [id, formation] = entry;
-    if (Now() - formation.heard_at < kFormationGoneAfter) return false;
-    statuses_.erase(id);
-    flights_.erase(id);
-    leader_arcs_m_.erase(id);
-    paths_.erase(id);
-    fleet_.RemoveFormation(id);
-    sink_(TextFrame(Dump({{"type", "formation_removed"}, {"formation_id", id}}), Key("formation", id)));
-    return true;
-  });
+  std::vector<std::int32_t> gone;
+  for (const auto& [id, formation] : formations_) {
+    if (Now() - formation.heard_at >= kFormationGoneAfter) gone.push_back(id);
+  }
+  for (const std::int32_t id : gone) RemoveFormation(id);
+}
+
+void BusMirror::RemoveFormation(std::int32_t id) {
+  formations_.erase(id);
+  statuses_.erase(id);
+  flights_.erase(id);
+  leader_arcs_m_.erase(id);
+  paths_.erase(id);
+  fleet_.RemoveFormation(id);
+  sink_(TextFrame(Dump({{"type", "formation_removed"}, {"formation_id", id}}), Key("formation", id)));
 }
 
 void BusMirror::SendMotion() {

@@ -80,7 +80,10 @@ class BusMirror {
 
   void Draw(DrawnPath& path);
   void Look();
+  /// Another flight begins: what was said of the one before counts no more; what happened stays.
+  void StartAnew();
   void ForgetFormations();
+  void RemoveFormation(std::int32_t id);
   void SendMotion();
   /// Once for all messages that are handled at this moment.
   void SendStatusSoon();

@@ -13,8 +13,9 @@ namespace {
 using Outcome = CommandResult::Outcome;
 
 const char* Obeys(const std::string& channel) {
-  return channel == bus::channel::kCmdLink || channel == bus::channel::kCmdPayload ? "fleet-simulator"
-                                                                                   : "formation-controller";
+  const bool fleet = channel == bus::channel::kCmdLink || channel == bus::channel::kCmdPayload ||
+                     channel == bus::channel::kCmdSimulation;
+  return fleet ? "fleet-simulator" : "formation-controller";
 }
 
 }  // namespace
@@ -38,9 +39,12 @@ void CommandGateway::Send(const std::string& channel, const nlohmann::json& body
       Publish(channel, ParseFormationCommand(body), done);
     } else if (channel == bus::channel::kCmdPath) {
       Publish(channel, ParsePathCommand(body), done);
+    } else if (channel == bus::channel::kCmdSimulation) {
+      Publish(channel, ParseSimulationCommand(body), done);
     } else {
-      done({Outcome::kMalformed, "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION or CMD_PATH, is " +
-                                     channel.substr(0, 40)});
+      done({Outcome::kMalformed,
+            "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH or CMD_SIMULATION, is " +
+                channel.substr(0, 40)});
     }
   } catch (const config::ConfigError& error) {
     done({Outcome::kMalformed, error.what()});

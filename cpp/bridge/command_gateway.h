@@ -27,7 +27,8 @@ class CommandGateway {
 
   explicit CommandGateway(bus::Bus& bus);
 
-  /// @param channel "CMD_LINK", "CMD_PAYLOAD", "CMD_FORMATION" or "CMD_PATH". @param body as in README.md.
+  /// @param channel "CMD_LINK", "CMD_PAYLOAD", "CMD_FORMATION", "CMD_PATH" or
+  /// "CMD_SIMULATION". @param body as in README.md.
   /// `done` is called once, possibly at once.
   void Send(const std::string& channel, const nlohmann::json& body, Done done);
 

@@ -151,4 +151,19 @@ path_command_t ParsePathCommand(const nlohmann::json& body) {
   return command;
 }
 
+simulation_command_t ParseSimulationCommand(const nlohmann::json& body) {
+  const Object object(Value::FromJson(body, bus::channel::kCmdSimulation), {"action", "scenario", "seed"});
+  simulation_command_t command{};
+  command.action = Choice(object.At("action"), {"restart", "load"});
+  if (command.action == simulation_command_t::ACTION_LOAD) {
+    command.scenario = object.At("scenario").Text();
+  } else if (const auto scenario = object.Find("scenario")) {
+    scenario->Refuse("goes with load only");
+  }
+  if (const auto seed = object.Find("seed")) {
+    command.seed = seed->Integer({1, std::numeric_limits<std::int32_t>::max()});
+  }
+  return command;
+}
+
 }  // namespace skein::bridge

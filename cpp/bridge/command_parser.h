@@ -5,6 +5,7 @@
 #include <skein/link_command_t.hpp>
 #include <skein/path_command_t.hpp>
 #include <skein/payload_command_t.hpp>
+#include <skein/simulation_command_t.hpp>
 
 #include "bus/executor.h"
 
@@ -18,6 +19,7 @@ link_command_t ParseLinkCommand(const nlohmann::json& body, bus::Utime now);
 payload_command_t ParsePayloadCommand(const nlohmann::json& body);
 formation_command_t ParseFormationCommand(const nlohmann::json& body);
 path_command_t ParsePathCommand(const nlohmann::json& body);
+simulation_command_t ParseSimulationCommand(const nlohmann::json& body);
 /// @}
 
 }  // namespace skein::bridge

@@ -5,6 +5,7 @@
 
 #include "bridge/byte_range.h"
 #include "bridge/history_query.h"
+#include "bridge/json_messages.h"
 #include "config/scenario.h"
 
 namespace skein::bridge {
@@ -55,7 +56,22 @@ std::string ResultJson(const CommandResult& result) {
   return nlohmann::json{{"accepted", result.accepted()}, {"reason", result.reason}}.dump();
 }
 
+std::string ScenariosJson() {
+  Json list = Json::array();
+  for (const config::ScenarioEntry& entry : config::ListScenarios()) {
+    list.push_back({{"name", entry.bare_name},
+                    {"title", entry.name},
+                    {"description", entry.description},
+                    {"vehicles", entry.vehicles},
+                    {"duration_s", entry.duration_s},
+                    {"problem", entry.problem}});
+  }
+  return Dump(list);
+}
+
 }  // namespace
+
+Rights RightsOf(const HttpHead& /*head*/) { return {}; }
 
 HttpRouter::HttpRouter(const RouterOptions& options, Backend backend)
     : access_(options.allowed_hosts),
@@ -107,6 +123,8 @@ void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
     backend_.state(respond_json);
   } else if (path == "/api/vehicles") {
     backend_.vehicles(respond_json);
+  } else if (path == "/api/scenarios") {
+    respond_json(ScenariosJson());
   } else if (path == "/api/history") {
     History(request, std::move(respond));
   } else if (path == kCommand) {
@@ -115,7 +133,7 @@ void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
     Preview(request, gone, std::move(respond));
   } else if (path.starts_with("/api/")) {
     respond(Plain(status::not_found,
-                  "The API has /api/state, /api/vehicles, /api/history, /api/command, "
+                  "The API has /api/state, /api/vehicles, /api/history, /api/scenarios, /api/command, "
                   "/api/preview/formation and /api/preview/path."));
   } else if (path.starts_with(kTiles)) {
     respond(Tile(request));

@@ -21,6 +21,15 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
 using HttpHead = boost::beast::http::request_header<>;
 
+/// What a session may do.
+struct Rights {
+  bool operate = true;  ///< hold control, and so command
+};
+
+/// The one place where that is decided, from the request that opened the session. There are no accounts:
+/// whoever gets past HttpRouter::TurnAway may operate.
+Rights RightsOf(const HttpHead& head);
+
 struct RouterOptions {
   std::filesystem::path web_folder;
   std::vector<std::string> allowed_hosts;

@@ -1,8 +1,10 @@
 #include "bridge/live_hub.h"
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "bridge/json_messages.h"
+#include "config/json_reader.h"
 
 namespace skein::bridge {
 namespace {
@@ -15,6 +17,44 @@ LiveFrame Ack(const json& id, const std::string& channel, const CommandResult& r
                          {"channel", channel},
                          {"accepted", result.accepted()},
                          {"reason", result.reason}}));
+}
+
+ControlDesk::Time Now() { return std::chrono::steady_clock::now(); }
+
+ControlRequest ParseControl(const config::Object& object) {
+  using Action = ControlRequest::Action;
+  static const std::map<std::string, Action> kActions = {
+      {"take", Action::kTake},     {"ask", Action::kAsk},       {"withdraw", Action::kWithdraw},
+      {"give", Action::kGive},     {"refuse", Action::kRefuse}, {"release", Action::kRelease},
+      {"rename", Action::kRename},
+  };
+  const config::Value action = object.At("action");
+  const auto known = kActions.find(action.Text());
+  if (known == kActions.end()) {
+    action.Refuse("must be join, take, ask, withdraw, give, refuse, release or rename");
+  }
+  ControlRequest request;
+  request.action = known->second;
+  if (request.action == Action::kGive || request.action == Action::kRefuse) {
+    request.person = object.At("person").Integer({1, 1e9});
+  }
+  if (request.action == Action::kRename) request.name = object.At("name").Text();
+  return request;
+}
+
+Introduction ParseIntroduction(const config::Object& object, const Rights& rights) {
+  Introduction introduction;
+  introduction.name = object.Text("name", "");
+  introduction.token = object.Text("token", "");
+  introduction.page = object.Text("page", "");
+  introduction.take = object.Boolean("take", true);
+  introduction.may_operate = rights.operate;
+  const std::string problem = introduction.name.empty() ? "" : NameProblem(introduction.name);
+  if (!problem.empty()) object.At("name").Refuse(problem);
+  for (const std::string_view key : {"token", "page"}) {
+    if (object.Text(key, "").size() > 100) object.At(key).Refuse("is too long");
+  }
+  return introduction;
 }
 
 /// The text at `key`, "" when there is none.
@@ -30,8 +70,16 @@ void LiveHub::Join(const std::shared_ptr<LiveSession>& session) {
     const auto session = weak.lock();
     if (!session) return;
     for (const LiveFrame& frame : frames) session->Send(frame);
+    session->Send(ControlFrame(*session));
     sessions_.push_back(session);
   });
+}
+
+void LiveHub::Leave(const std::shared_ptr<LiveSession>& session) {
+  const int person = std::exchange(session->person, 0);
+  if (person == 0) return;
+  desk_.Leave(person, Now());
+  TellControl();
 }
 
 void LiveHub::Broadcast(const LiveFrame& frame) {
@@ -42,23 +90,84 @@ void LiveHub::Broadcast(const LiveFrame& frame) {
   });
 }
 
-void LiveHub::Hear(const std::shared_ptr<LiveSession>& session, const std::string& text) const {
+void LiveHub::Look() {
+  if (desk_.Look(Now())) TellControl();
+}
+
+LiveFrame LiveHub::ControlFrame(const LiveSession& session) const {
+  return TextFrame(Dump(desk_.View(session.person, Now())), "control");
+}
+
+void LiveHub::TellControl() {
+  for (const auto& weak : sessions_) {
+    if (const auto session = weak.lock()) session->Send(ControlFrame(*session));
+  }
+}
+
+void LiveHub::Introduce(const std::shared_ptr<LiveSession>& session, const Introduction& introduction) {
+  Leave(session);
+  const int person = desk_.Enter(introduction, Now());
+  for (const auto& weak : sessions_) {
+    // A dead connection of the same page, which nobody has noticed yet.
+    const auto other = weak.lock();
+    if (other && other != session && other->person == person) other->person = 0;
+  }
+  session->person = person;
+  TellControl();
+}
+
+void LiveHub::Hear(const std::shared_ptr<LiveSession>& session, const std::string& text) {
   json message = json::parse(text, nullptr, false);
   if (!message.is_object()) message = json::object();
   const json id = message.value("id", json());
-  const std::string channel = Text(message, "channel");
-  const auto refuse = [&](CommandResult::Outcome outcome, const char* reason) {
-    session->Send(Ack(id.is_string() || id.is_number() ? id : json(), channel, {outcome, reason}));
+  const bool named = id.is_string() || id.is_number();
+  const std::string type = Text(message, "type");
+  const auto refuse = [&](const char* reason) {
+    session->Send(
+        Ack(named ? id : json(), Text(message, "channel"), {CommandResult::Outcome::kMalformed, reason}));
   };
+  if (type != "command" && type != "control")
+    return refuse("the message is no JSON object of type command or control");
+  if (!named) return refuse("id: must be a text or a number");
+  if (type == "command") return Command(session, std::move(message));
+  session->Send(Ack(id, type, Control(session, message)));
+}
+
+CommandResult LiveHub::Control(const std::shared_ptr<LiveSession>& session, const json& message) {
+  try {
+    const config::Object object(config::Value::FromJson(message, "control"),
+                                {"type", "id", "action", "name", "token", "page", "take", "person"});
+    if (object.At("action").Text() == "join") {
+      Introduce(session, ParseIntroduction(object, session->rights));
+      return {};
+    }
+    const ControlRequest request = ParseControl(object);
+    if (session->person == 0) object.At("action").Refuse("join comes first");
+    const bus::Answer answer = desk_.Ask(session->person, request, Now());
+    TellControl();
+    return {answer.accepted ? CommandResult::Outcome::kAccepted : CommandResult::Outcome::kRefused,
+            answer.reason};
+  } catch (const config::ConfigError& error) {
+    return {CommandResult::Outcome::kMalformed, error.what()};
+  }
+}
+
+void LiveHub::Command(const std::shared_ptr<LiveSession>& session, json message) {
   using Outcome = CommandResult::Outcome;
-  if (Text(message, "type") != "command")
-    return refuse(Outcome::kMalformed, "the message is no JSON object of type command");
-  if (!id.is_string() && !id.is_number())
-    return refuse(Outcome::kMalformed, "id: must be a text or a number");
+  const json id = message["id"];
+  const std::string channel = Text(message, "channel");
+  const auto refuse = [&](Outcome outcome, const std::string& reason) {
+    session->Send(Ack(id, channel, {outcome, reason}));
+  };
   if (channel.empty()) return refuse(Outcome::kMalformed, "channel: must be a text");
   if (!message.contains("body")) return refuse(Outcome::kMalformed, "body: is missing");
   if (message.size() != 4)
     return refuse(Outcome::kMalformed, "only type, id, channel and body belong in a command");
+  // Who commands without a word of introduction is a program, most likely alone.
+  if (session->person == 0) Introduce(session, {.may_operate = session->rights.operate});
+  if (const std::string why_not = desk_.WhyNot(session->person); !why_not.empty()) {
+    return refuse(Outcome::kRefused, why_not);
+  }
   if (session->waiting_commands >= kMaxWaitingCommands) {
     return refuse(Outcome::kBusy, "too many commands wait for an answer: try again in 2 s");
   }

@@ -34,6 +34,10 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
   /// Commands that have not been answered yet.
   int waiting_commands = 0;
+  /// Who is at the other end, for the control desk; 0: nobody has said yet.
+  int person = 0;
+  /// What that one may do.
+  Rights rights;
 
  private:
   void WriteNext();

@@ -10,6 +10,7 @@ WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOpt
                 boost::asio::post(web_context_, [this, frame] { server_.hub().Broadcast(frame); });
               }),
       gateway_(bus),
+      events_(bus),
       server_(web_context_, options.listen, options.port,
               {options.web_folder, options.allowed_hosts, options.hello.tile_url, options.tiles},
               MakeBackend(executor)),
@@ -42,6 +43,9 @@ Backend WebBridge::MakeBackend(bus::LiveExecutor& executor) {
                           reply(EncodeHistory(samples, query, start_utime));
                         });
     });
+  };
+  backend.tell = [this, &executor](const std::string& code, const std::string& text) {
+    executor.Post([this, code, text] { events_.Tell(event_t::INFO, code, text); });
   };
   backend.command = [this, &executor](const std::string& channel, const nlohmann::json& body,
                                       const Backend::Reply<CommandResult>& reply) {

@@ -16,6 +16,7 @@
 #include "bridge/map_tiles.h"
 #include "bridge/previewer.h"
 #include "bridge/web_server.h"
+#include "bus/events.h"
 #include "bus/live_executor.h"
 
 namespace skein::bridge {
@@ -48,6 +49,7 @@ class WebBridge {
 
   BusMirror mirror_;
   CommandGateway gateway_;
+  bus::Events events_;
   boost::asio::io_context web_context_;
   WebServer server_;
   std::uint16_t port_;

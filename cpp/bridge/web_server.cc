@@ -35,6 +35,7 @@ constexpr seconds kResponseTime{60};
 // Only a fault of ours takes longer: commands are given up after 2 s, flights ahead after 5 s, and one of
 // those waits for four others at most.
 constexpr seconds kAnswerTime{30};
+constexpr std::chrono::milliseconds kLookPeriod{250};
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1u << 20;
 
@@ -99,6 +100,7 @@ WebServer::WebServer(asio::io_context& context, const std::string& address, std:
                      const RouterOptions& options, const Backend& backend)
     : context_(context), acceptor_(Listen(context, address, port)), router_(options, backend), hub_(backend) {
   asio::co_spawn(context_, AcceptAll(), asio::detached);
+  asio::co_spawn(context_, LookAfterPeople(), asio::detached);
 }
 
 asio::awaitable<void> WebServer::AcceptAll() {
@@ -121,6 +123,15 @@ asio::awaitable<void> WebServer::AcceptAll() {
         spdlog::error("a connection failed: {}", exception.what());
       }
     });
+  }
+}
+
+asio::awaitable<void> WebServer::LookAfterPeople() {
+  asio::steady_timer pause(context_);
+  for (;;) {
+    pause.expires_after(kLookPeriod);
+    co_await pause.async_wait(kAwait);
+    hub_.Look();
   }
 }
 
@@ -207,11 +218,13 @@ asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, Tcp:
 
 asio::awaitable<void> WebServer::ServeLive(beast::tcp_stream stream, HttpRequest request) {
   const auto session = std::make_shared<LiveSession>(std::move(stream));
+  session->rights = RightsOf(request);
   const bool accepted = co_await session->Accept(request);
   if (!accepted) co_return;
   hub_.Join(session);
   co_await session->Run(
       [this](const std::shared_ptr<LiveSession>& from, const std::string& text) { hub_.Hear(from, text); });
+  hub_.Leave(session);
 }
 
 }  // namespace skein::bridge

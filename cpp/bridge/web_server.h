@@ -31,6 +31,7 @@ class WebServer {
  private:
   using Tcp = boost::asio::ip::tcp;
   boost::asio::awaitable<void> AcceptAll();
+  boost::asio::awaitable<void> LookAfterPeople();
   boost::asio::awaitable<void> Serve(Tcp::socket socket, std::shared_ptr<void> place);
   boost::asio::awaitable<HttpResponse> Answer(const HttpRequest& request, Tcp::socket& from);
   boost::asio::awaitable<void> ServeLive(boost::beast::tcp_stream stream, HttpRequest request);

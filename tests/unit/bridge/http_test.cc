@@ -57,6 +57,31 @@ TEST_F(HttpTest, ServesThePageWithHeadersThatKeepOthersOut) {
   EXPECT_TRUE(response->headers.at("content-security-policy").starts_with("default-src 'self'"));
 }
 
+TEST_F(HttpTest, ListsTheScenariosThatCanBeLoaded) {
+  std::ofstream(web_ / "one.json") << R"({"name": "One", "description": "Alone", "duration_s": 60,
+      "origin": {"latitude_deg": 0, "longitude_deg": 0},
+      "vehicles": [{"id": 1, "east_m": 0, "north_m": 0, "up_m": 500, "speed_m_s": 50, "course_deg": 0}]})";
+  std::ofstream(web_ / "broken.json") << "{";
+  setenv("SKEIN_SCENARIOS", web_.c_str(), 1);
+  RawClient client(port());
+  const auto response = client.Get("/api/scenarios");
+  unsetenv("SKEIN_SCENARIOS");
+  ASSERT_TRUE(response);
+  json one;
+  json broken;
+  for (const json& entry : json::parse(response->body)) {
+    if (entry["name"] == "one") one = entry;
+    if (entry["name"] == "broken") broken = entry;
+  }
+  EXPECT_EQ(one, (json{{"name", "one"},
+                       {"title", "One"},
+                       {"description", "Alone"},
+                       {"vehicles", 1},
+                       {"duration_s", 60},
+                       {"problem", ""}}));
+  EXPECT_NE(broken["problem"].get<std::string>().find("broken.json"), std::string::npos);
+}
+
 TEST_F(HttpTest, KeepsTheConnectionAndAnswersPipelinedRequestsInOrder) {
   RawClient client(port());
   std::string requests;

@@ -131,6 +131,36 @@ TEST(Live, LetsABrowserHaveOnlySoManyCommandsWaiting) {
   EXPECT_NE(browser.ReadText("ack")["reason"].get<std::string>().find("too many"), std::string::npos);
 }
 
+TEST(Live, LetsOneBrowserCommandAtATimeAndTellsAllWho) {
+  BridgeUnderTest bridge;
+  LiveClient ada(bridge.port());
+  LiveClient bob(bridge.port());
+  const auto ask = [](LiveClient& browser, const std::string& rest) {
+    browser.Send(R"({"type":"control","id":"k",)" + rest + "}");
+    return browser.ReadText("ack");
+  };
+  EXPECT_EQ(ask(ada, R"("action":"release")")["reason"], "control: /action: join comes first");
+  EXPECT_EQ(ask(ada, R"("action":"join","name":"Ada","page":"a")")["accepted"], true);
+  EXPECT_EQ(ask(bob, R"("action":"join","name":"Bob","page":"b")")["accepted"], true);
+  bob.Send(kCut);
+  EXPECT_EQ(bob.ReadText("ack")["reason"], "Ada holds control");
+  const json seen = bob.ReadText("event");
+  EXPECT_EQ(seen["code"], "control_taken");
+  EXPECT_EQ(seen["text"], "Ada has taken control");
+
+  json control;
+  while (control.is_null() || control["people"].size() != 2) control = ada.ReadText("control");
+  EXPECT_EQ(control["holder"], control["you"]);
+  const int bobs_number = control["people"][1]["id"];
+  EXPECT_EQ(ask(ada, R"("action":"give","person":)" + std::to_string(bobs_number))["accepted"], true);
+  bob.Send(kCut);
+  EXPECT_EQ(bob.ReadText("ack")["reason"],
+            "nobody answered CMD_LINK within 2 s: is fleet-simulator running?");
+  EXPECT_EQ(ask(bob, R"("action":"dance")")["reason"],
+            "control: /action: must be join, take, ask, withdraw, give, refuse, release or rename");
+  EXPECT_EQ(ask(bob, R"("action":"rename","name":"\u0007")")["accepted"], false);
+}
+
 TEST(Live, RefusesForeignPagesAndOtherPaths) {
   BridgeUnderTest bridge;
   EXPECT_THROW(LiveClient(bridge.port(), "http://evil.example"), std::runtime_error);
