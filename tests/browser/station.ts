@@ -46,6 +46,7 @@ export class Station {
     for (const name of names.length === 0 ? kNodes : names) {
       const child = spawn(`${kBin}/${name}`, [...this.argumentsOf(name), "--lcm-url", kLcmUrl], {
         stdio: ["ignore", "pipe", "pipe"],
+        env: { ...process.env, SKEIN_SCENARIOS: `${kHere}scenarios` },
       });
       const running: Running = { process: child, output: "" };
       const listen = (chunk: Buffer) => {

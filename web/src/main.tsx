@@ -1,6 +1,7 @@
 import { render } from "preact";
 import "leaflet/dist/leaflet.css";
 import "./style/main.css";
+import { Control } from "./control/control";
 import { Api } from "./link/api";
 import { Commands } from "./link/commands";
 import { Connection } from "./link/connection";
@@ -16,15 +17,22 @@ import { Store } from "./state/store";
 const kBeat_ms = 250;
 
 const commands = new Commands((text) => connection.send(text));
-const store = new Store((ack) => {
-  commands.acknowledged(ack);
-});
+const control = new Control(commands);
+const store = new Store(
+  (ack) => {
+    commands.acknowledged(ack);
+  },
+  (message) => {
+    control.takeMessage(message, performance.now());
+  },
+);
 const connection = new Connection(
   () => new WebSocket(new URL("live", document.baseURI.replace(/^http/, "ws"))),
   {
     onState(state) {
       if (state.kind === "waiting") commands.connectionLost();
       store.connection.value = state;
+      if (state.kind === "open") control.join();
     },
     onText(text) {
       store.takeText(text);
@@ -45,6 +53,7 @@ connection.start();
 const station: Station = {
   store,
   commands,
+  control,
   api: new Api(document.baseURI),
   payloads: new PayloadRequests(store, commands),
   map: signal<MapAccess | null>(null),

@@ -1,4 +1,4 @@
-import type { Ack, CommandBodies, CommandChannel } from "./messages";
+import type { Ack, CommandBodies, CommandChannel, ControlBody } from "./messages";
 
 export interface Outcome {
   accepted: boolean;
@@ -18,9 +18,18 @@ export class Commands {
   constructor(private readonly send: (text: string) => boolean) {}
 
   request<C extends CommandChannel>(channel: C, body: CommandBodies[C]): Promise<Outcome> {
+    return this.sendWithId({ type: "command", channel, body });
+  }
+
+  /** About who may command: to the bridge itself. */
+  control(body: ControlBody): Promise<Outcome> {
+    return this.sendWithId({ type: "control", ...body });
+  }
+
+  private sendWithId(message: object): Promise<Outcome> {
     this.count += 1;
     const id = `c${this.count}`;
-    if (!this.send(JSON.stringify({ type: "command", id, channel, body }))) {
+    if (!this.send(JSON.stringify({ ...message, id }))) {
       return Promise.resolve({ accepted: false, reason: "Not sent: no connection to web-bridge." });
     }
     return new Promise((resolve) => {

@@ -1,5 +1,7 @@
 /** Text messages of the live link (cpp/bridge/README.md). Names and units are those of the LCM fields. */
 
+import type { ControlMessage } from "../control/people";
+
 export interface Hello {
   type: "hello";
   version: string;
@@ -161,10 +163,29 @@ export type ServerMessage =
   | BusEvent
   | Heartbeat
   | Ack
-  | BusHealth;
+  | BusHealth
+  | ControlMessage;
+
+export interface LinkBody {
+  vehicle_id: number;
+  mode: "up" | "silent" | "frozen";
+  uplink?: boolean;
+  downlink?: boolean;
+  delay_s?: number;
+  jitter_s?: number;
+  loss?: number;
+  duration_s?: number;
+}
+
+export type ControlBody =
+  | { action: "join"; page: string; take: boolean; name?: string; token?: string }
+  | { action: "take" | "ask" | "withdraw" | "release" }
+  | { action: "give" | "refuse"; person: number }
+  | { action: "rename"; name: string };
 
 export interface CommandBodies {
-  CMD_LINK: { vehicle_id: number; mode: "up" | "silent" };
+  CMD_LINK: LinkBody;
+  CMD_SIMULATION: { action: "restart" } | { action: "load"; scenario: string };
   CMD_PAYLOAD: { vehicle_ids: number[]; on: boolean };
   CMD_PATH: { formation_id: number; closed: boolean; waypoints: readonly Waypoint[] };
   CMD_FORMATION:

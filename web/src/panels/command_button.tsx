@@ -1,6 +1,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { why_no_command } from "../control/control";
 import type { Outcome } from "../link/commands";
 
 interface CommandButtonProps {
@@ -14,20 +15,28 @@ interface CommandButtonProps {
   disabled?: boolean;
   /** For a control in a grid, which has a way of its own to it. */
   tabIndex?: number;
+  /** It commands nothing on the bus: also for those who do not hold control. */
+  always?: boolean;
 }
 
 const kShowRefusal_ms = 12_000;
 
-/** A button that commands the bus. It waits for the answer, and a refusal is shown right beside it until it is dismissed. */
+/**
+ * A button that commands the bus. It waits for the answer, and a refusal is shown right beside it until it is dismissed. Who does not
+ * hold control sees that, and is told why when pressing it all the same.
+ */
 export function CommandButton(props: CommandButtonProps) {
   const button = useRef<HTMLButtonElement>(null);
   const waiting = useSignal(false);
   const refusal = useSignal("");
 
+  const why_not = props.always === true ? "" : why_no_command.value;
+
   const press = () => {
     if (waiting.value) return;
+    refusal.value = why_not;
+    if (why_not !== "") return;
     waiting.value = true;
-    refusal.value = "";
     void props.command().then((outcome) => {
       waiting.value = false;
       refusal.value = outcome.accepted ? "" : outcome.reason || "Refused.";
@@ -43,7 +52,8 @@ export function CommandButton(props: CommandButtonProps) {
         ref={button}
         class={props.class ?? "button"}
         aria-label={props.label}
-        title={props.label}
+        title={why_not === "" ? props.label : `${props.label}: ${why_not}`}
+        aria-disabled={why_not !== ""}
         aria-busy={waiting.value}
         disabled={props.disabled ?? false}
         tabIndex={props.tabIndex}

@@ -6,6 +6,7 @@ import { EventList } from "../panels/event_list";
 import { PlanPanel } from "../plan/plan_panel";
 import { PayloadPanel } from "../payload/payload_panel";
 import { FormationTable } from "../table/formation_table";
+import { SimulationPanel } from "../simulation/simulation_panel";
 import type { IconName } from "./icon";
 import type { Station } from "./station";
 
@@ -30,6 +31,7 @@ export const kDrawerPanels: readonly DrawerSpec[] = [
   { id: "formation", title: "Formation", icon: "formation", shortcut: "e", view: FormationPanel },
   { id: "plan", title: "Plan", icon: "plan", shortcut: "p", view: PlanPanel },
   { id: "payload", title: "Payload", view: PayloadPanel, icon: "payload", shortcut: "y" },
+  { id: "simulation", title: "Simulation", icon: "simulation", shortcut: "s", view: SimulationPanel },
 ];
 
 /** Beside the map on the right. */

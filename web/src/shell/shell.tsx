@@ -1,4 +1,5 @@
 import { useCallback, useEffect, useRef } from "preact/hooks";
+import { ControlNotices } from "../control/control_notices";
 import { MapPanel } from "../map/map_panel";
 import { FirstRun } from "../panels/first_run";
 import { LinkBanner } from "../panels/link_banner";
@@ -27,6 +28,7 @@ export function Shell({ station }: PanelProps) {
           <ModeCards store={store} />
           <div class="free" ref={free}>
             <LinkBanner store={store} retry={station.retry} />
+            <ControlNotices station={station} />
             <FirstRun store={store} />
           </div>
         </div>

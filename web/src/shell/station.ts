@@ -1,5 +1,6 @@
 /** What every panel is given. */
 import type { Signal } from "@preact/signals";
+import type { Control } from "../control/control";
 import type { Api } from "../link/api";
 import type { Commands } from "../link/commands";
 import type { MapAccess } from "../map/map_access";
@@ -9,6 +10,8 @@ import type { Store } from "../state/store";
 export interface Station {
   readonly store: Store;
   readonly commands: Commands;
+  /** Who may command, and this page's part in it. */
+  readonly control: Control;
   readonly api: Api;
   readonly payloads: PayloadRequests;
   /** Null until the map is there. */

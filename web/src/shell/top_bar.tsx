@@ -1,3 +1,4 @@
+import { ControlPill } from "../control/control_pill";
 import { HoldControl } from "../formation/hold_control";
 import type { Store } from "../state/store";
 import { Brand } from "../panels/icons";
@@ -20,6 +21,7 @@ export function TopBar({ station }: PanelProps) {
       </span>
       <Clock store={store} />
       <HoldControl station={station} />
+      <ControlPill station={station} />
       <ConnectionPill store={store} />
       <SettingsMenu />
       <button

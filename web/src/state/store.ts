@@ -13,6 +13,7 @@ import type {
   Roster,
   ServerMessage,
 } from "../link/messages";
+import type { ControlMessage } from "../control/people";
 import { Fleet } from "./fleet";
 
 const kMostEvents = 200;
@@ -44,7 +45,10 @@ export class Store {
     () => new Map(this.roster.value?.vehicles.map((vehicle) => [vehicle.id, vehicle.callsign])),
   );
 
-  constructor(private readonly onAck: (ack: Ack) => void) {}
+  constructor(
+    private readonly onAck: (ack: Ack) => void,
+    private readonly onControl: (control: ControlMessage) => void = () => undefined,
+  ) {}
 
   takeText(text: string): void {
     const message = JSON.parse(text) as ServerMessage;
@@ -77,6 +81,9 @@ export class Store {
         break;
       case "bus":
         this.silent_nodes.value = message.nodes_silent;
+        break;
+      case "control":
+        this.onControl(message);
         break;
       case "ack":
         this.onAck(message);

@@ -58,6 +58,14 @@ export function inUnit(unit: string): Quantity {
   );
 }
 
+export const seconds = inUnit("s");
+
+/** Of shares of one. */
+export const percent = quantity(
+  () => "%",
+  () => 0.01,
+);
+
 /** Every altitude is told with what it is measured from: the origin of the local frame. */
 export const kAltitudeReference = "ENU";
 
