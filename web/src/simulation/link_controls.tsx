@@ -109,7 +109,7 @@ export function LinkControls({ station }: PanelProps) {
         </CommandButton>
       </div>
       {number("Delay", "delay_s", kLongestDelay_s)}
-      {number("Jitter, added at random", "jitter_s", kLongestDelay_s)}
+      {number("Jitter", "jitter_s", kLongestDelay_s)}
       <Field label="Loss">
         <NumberField
           label="Loss"

@@ -1,4 +1,4 @@
-import { useSignal } from "@preact/signals";
+import { useSignal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Outcome } from "../link/commands";
 import { CommandButton } from "../panels/command_button";
@@ -22,24 +22,38 @@ const uavs = (count: number) => (count === 1 ? "1 UAV" : `${count} UAVs`);
 
 export function ScenarioControls({ station }: PanelProps) {
   const { store, commands } = station;
-  const { scenarios, failure, read } = useScenarios(station);
-  const chosen = useSignal("");
-  const sure_of = useSignal<"" | "restart" | "load">("");
+  const chosen = useSignal<Scenario | null>(null);
+  /** What is about to be done, and waits for a second look. */
+  const about_to = useSignal<"" | "restart" | "load">("");
   const start = useStart(station);
   const roster = store.roster.value;
-  const scenario = scenarios.value.find(({ name }) => name === chosen.value);
+  const loads = about_to.value === "load";
 
   const command = async (): Promise<Outcome> => {
     const before_utime = roster?.start_utime ?? 0;
-    const outcome = await (sure_of.value === "load" && scenario !== undefined
-      ? commands.request("CMD_SIMULATION", { action: "load", scenario: scenario.name })
+    const outcome = await (loads && chosen.value !== null
+      ? commands.request("CMD_SIMULATION", { action: "load", scenario: chosen.value.name })
       : commands.request("CMD_SIMULATION", { action: "restart" }));
     if (outcome.accepted) {
-      sure_of.value = "";
+      about_to.value = "";
       start.begin(before_utime);
     }
     return outcome;
   };
+  const opener = (what: "restart" | "load", text: string, title: string) => (
+    <button
+      type="button"
+      class="button"
+      disabled={start.waits}
+      title={title}
+      onClick={() => {
+        chosen.value = null;
+        about_to.value = what;
+      }}
+    >
+      {text}
+    </button>
+  );
 
   return (
     <section aria-labelledby="scenario-title">
@@ -48,16 +62,62 @@ export function ScenarioControls({ station }: PanelProps) {
         {roster === null ? "No fleet yet" : roster.scenario || "Without a name"}
         <span class="hint">{roster === null ? "" : uavs(roster.vehicles.length)}</span>
       </p>
-      <ul class="scenarios" role="radiogroup" aria-label="Scenarios">
+      {about_to.value === "" ? (
+        <div class="row">
+          {opener("load", "Load another…", "Choose another scenario")}
+          {opener("restart", "Restart…", "Fly the same scenario again, from its start")}
+          <span class="hint" role="status">
+            {start.word}
+          </span>
+        </div>
+      ) : (
+        <div class="sure" role="group" aria-label={loads ? "Load another scenario" : "Restart"}>
+          {loads && <ScenarioList station={station} chosen={chosen} />}
+          <p>
+            {!loads
+              ? "The flight ends, and the same scenario starts again."
+              : chosen.value === null
+                ? "Choose the scenario to fly."
+                : `The flight ends, and ${chosen.value.title} starts with ${uavs(chosen.value.vehicles)}.`}
+          </p>
+          <div class="row">
+            <CommandButton
+              class="button primary"
+              label={loads ? "Load now" : "Restart now"}
+              disabled={loads && chosen.value === null}
+              command={command}
+            >
+              {loads ? "Load now" : "Restart now"}
+            </CommandButton>
+            <button
+              type="button"
+              class="button"
+              onClick={() => {
+                about_to.value = "";
+              }}
+            >
+              Cancel
+            </button>
+          </div>
+        </div>
+      )}
+    </section>
+  );
+}
+
+function ScenarioList({ station, chosen }: PanelProps & { chosen: Signal<Scenario | null> }) {
+  const { scenarios, failure, read } = useScenarios(station);
+  return (
+    <>
+      <ul class="scenarios" aria-label="Scenarios">
         {scenarios.value.map((one) => (
           <ScenarioChoice
             key={one.name}
             scenario={one}
-            flying={one.title === roster?.scenario}
-            chosen={one.name === chosen.value}
+            flying={one.title === station.store.roster.value?.scenario}
+            chosen={one.name === chosen.value?.name}
             choose={() => {
-              chosen.value = one.name;
-              sure_of.value = "";
+              chosen.value = one;
             }}
           />
         ))}
@@ -72,63 +132,7 @@ export function ScenarioControls({ station }: PanelProps) {
           )}
         </p>
       )}
-      {sure_of.value === "" ? (
-        <div class="row">
-          <button
-            type="button"
-            class="button"
-            disabled={scenario === undefined || start.waits}
-            title={scenario === undefined ? "Choose a scenario first" : `Fly ${scenario.title}`}
-            onClick={() => {
-              sure_of.value = "load";
-            }}
-          >
-            Load…
-          </button>
-          <button
-            type="button"
-            class="button"
-            disabled={start.waits}
-            title="Fly the same scenario again, from its start"
-            onClick={() => {
-              sure_of.value = "restart";
-            }}
-          >
-            Restart…
-          </button>
-          <span class="hint" role="status">
-            {start.word}
-          </span>
-        </div>
-      ) : (
-        <div class="sure" role="group" aria-label="Are you sure?">
-          <p>
-            {sure_of.value === "load" && scenario !== undefined
-              ? `The flight ends, and ${scenario.title} starts with ${uavs(scenario.vehicles)}.`
-              : "The flight ends, and the same scenario starts again."}{" "}
-            Everybody who looks on sees it.
-          </p>
-          <div class="row">
-            <CommandButton
-              class="button primary"
-              label={sure_of.value === "load" ? "Load now" : "Restart now"}
-              command={command}
-            >
-              {sure_of.value === "load" ? "Load now" : "Restart now"}
-            </CommandButton>
-            <button
-              type="button"
-              class="button"
-              onClick={() => {
-                sure_of.value = "";
-              }}
-            >
-              Cancel
-            </button>
-          </div>
-        </div>
-      )}
-    </section>
+    </>
   );
 }
 
