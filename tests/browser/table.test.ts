@@ -149,7 +149,13 @@ test("a click selects one, Ctrl adds, Shift takes all between", async () => {
 
 test("with the keyboard: arrows move, Space selects, Ctrl+A takes all, Escape none, Enter centres the map", async () => {
   explain();
-  await grid().focus();
+  await screen.page.evaluate(() => {
+    (document.activeElement as HTMLElement | null)?.blur();
+  });
+  await screen.page.keyboard.press("t");
+  await until(async () =>
+    expect(await grid().evaluate((table) => table === document.activeElement)).toBe(true),
+  );
   await screen.page.keyboard.press("Escape");
   await until(async () => expect(await selected()).toEqual([]));
   await screen.page.keyboard.press("Home");

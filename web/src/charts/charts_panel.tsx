@@ -1,4 +1,4 @@
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useMemo, useRef } from "preact/hooks";
 import type uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import "./charts.css";
@@ -15,7 +15,7 @@ import { download, fileName } from "./download";
 import { marksOf } from "./event_marks";
 import { FlightRecorder } from "./flight_recorder";
 import { drawPicture } from "./png";
-import { pan, spanOf, zoom, type Span } from "./time_window";
+import { kAll, pan, spanOf, zoom, type Span } from "./time_window";
 
 /** Live curves are drawn anew so often. */
 const kRedraw_ms = 1000;
@@ -57,11 +57,20 @@ export function ChartsPanel({ station }: PanelProps) {
   const loading = recorder.current.loading.value;
 
   const start_utime = roster?.start_utime ?? 0;
-  const start_s = Math.max(series.times()[0] ?? 0, 0);
-  const now_s = Math.max(series.last_s(), start_s);
-  const span = spanOf(time_window.value, start_s, now_s);
+  useEffect(() => {
+    // Another flight: a part of the last one says nothing about it.
+    time_window.value = kAll;
+  }, [start_utime]);
   const revision = Math.floor(now_ms / kRedraw_ms);
-  const marks = marksOf(store.events.value, start_utime, span);
+  const events = store.events.value;
+  const wanted_window = time_window.value;
+  // Once a redrawing, and at once when something else is to be seen: not on every beat.
+  const { start_s, now_s, span, marks } = useMemo(() => {
+    const start_s = Math.max(series.times()[0] ?? 0, 0);
+    const now_s = Math.max(series.last_s(), start_s);
+    const span = spanOf(wanted_window, start_s, now_s);
+    return { revision, start_s, now_s, span, marks: marksOf(events, start_utime, span) };
+  }, [series, revision, events, start_utime, wanted_window]);
   const charts = kCharts.filter(({ column }) => !hidden_charts.value.includes(column));
 
   const gestures = {
@@ -73,7 +82,7 @@ export function ChartsPanel({ station }: PanelProps) {
       time_window.value = pan(span, part, start_s, now_s);
     },
     reset: () => {
-      time_window.value = { last_s: Infinity };
+      time_window.value = kAll;
     },
   };
   const moveCursor = (part: number) => {
@@ -134,6 +143,7 @@ export function ChartsPanel({ station }: PanelProps) {
       <ChartsToolbar store={store} ids={series.ids} exportCsv={exportCsv} exportPng={exportPng} />
       <div
         class="charts"
+        data-keys
         role="group"
         tabIndex={0}
         aria-label="Charts: plus and minus zoom, arrows move, with Shift they move the cursor, 0 shows all"

@@ -141,6 +141,21 @@ export function SideColumn({ station }: PanelProps) {
 }
 
 export function Dock({ station }: PanelProps) {
+  useShortcuts(
+    kDockPanels.map(({ id, title, shortcut, keys }) => ({
+      keys: shortcut,
+      label: `${title}: go there. In it, ${keys}`,
+      group: "Panels",
+      run: () => {
+        dock_panel.value = id;
+        dock_open.value = true;
+        // Once it is drawn.
+        requestAnimationFrame(() => {
+          document.querySelector<HTMLElement>("#dock-body [data-keys]")?.focus();
+        });
+      },
+    })),
+  );
   const panel = shownOf(kDockPanels, dock_panel.value);
   if (panel === undefined) return null;
   const open = dock_open.value;

@@ -26,6 +26,13 @@ export interface DrawerSpec extends PanelSpec {
   shortcut: string;
 }
 
+export interface DockSpec extends PanelSpec {
+  /** Opens it and takes the focus there. */
+  shortcut: string;
+  /** What the keys do in it, for the help. */
+  keys: string;
+}
+
 /** Tools, one open at a time, in the drawer on the left. */
 export const kDrawerPanels: readonly DrawerSpec[] = [
   { id: "formation", title: "Formation", icon: "formation", shortcut: "e", view: FormationPanel },
@@ -38,7 +45,19 @@ export const kDrawerPanels: readonly DrawerSpec[] = [
 export const kSidePanels: readonly PanelSpec[] = [{ id: "events", title: "Events", view: EventList }];
 
 /** Below the map. */
-export const kDockPanels: readonly PanelSpec[] = [
-  { id: "table", title: "Table", view: FormationTable },
-  { id: "charts", title: "Charts", view: ChartsPanel },
+export const kDockPanels: readonly DockSpec[] = [
+  {
+    id: "table",
+    title: "Table",
+    view: FormationTable,
+    shortcut: "t",
+    keys: "arrows move, Space selects, Enter centres the map, Ctrl+A takes all, Esc none",
+  },
+  {
+    id: "charts",
+    title: "Charts",
+    view: ChartsPanel,
+    shortcut: "c",
+    keys: "+ and \u2212 zoom, arrows move, with Shift the cursor, 0 shows all",
+  },
 ];

@@ -108,6 +108,7 @@ export function UavGrid({ station, scroller, columns, ids, vehicles, order, setO
       aria-colcount={columns.length}
       aria-multiselectable="true"
       aria-activedescendant={active_drawn && active !== null ? rowElementId(active) : undefined}
+      data-keys
       tabIndex={0}
       style={{ "--columns": template }}
       onKeyDown={onKey}
