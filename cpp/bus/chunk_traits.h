@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <skein/alarm_list_t.hpp>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/fleet_state_t.hpp>
@@ -67,6 +68,16 @@ struct ChunkTraits<proximity_t> {
   static std::int64_t Stream(const proximity_t&) { return 0; }
   static std::int64_t Session(const proximity_t&) { return 0; }
   static std::int64_t Set(const proximity_t& message) { return message.sweep; }
+  static constexpr bool kConsecutive = true;
+};
+
+template <>
+struct ChunkTraits<alarm_list_t> {
+  static auto& Items(auto& message) { return message.alarms; }
+  static void SetCount(alarm_list_t& message, int count) { message.num_alarms = count; }
+  static std::int64_t Stream(const alarm_list_t&) { return 0; }
+  static std::int64_t Session(const alarm_list_t& message) { return message.session_id; }
+  static std::int64_t Set(const alarm_list_t& message) { return message.sequence; }
   static constexpr bool kConsecutive = true;
 };
 

@@ -21,10 +21,10 @@ struct Answer {
   static Answer Refused(std::string why) { return {false, std::move(why)}; }
 };
 
-/// Takes operators' commands (CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH) and answers each on ACK. A
-/// request that comes again (its ACK was lost) is answered again, not done again; one older than the last of
-/// its session that was never seen is refused. By session and request number, never by age, so clocks do not
-/// matter.
+/// Takes operators' commands (CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH, CMD_ALARM) and answers each on
+/// ACK. A request that comes again (its ACK was lost) is answered again, not done again; one older than the
+/// last of its session that was never seen is refused. By session and request number, never by age, so clocks
+/// do not matter.
 ///
 ///   inbox.Obey<link_command_t>(channel::kCmdLink, [this](const link_command_t& command) { return
 ///   SetLink(command); });

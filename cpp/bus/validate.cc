@@ -78,6 +78,15 @@ bool Every(const Items& items, Check check) {
   return std::all_of(items.begin(), items.end(), check);
 }
 
+bool ValidItem(const alarm_t& alarm) {
+  return alarm.id >= 1 && Sequence(alarm.id) && Name(alarm.condition) &&
+         Within(alarm.severity, event_t::ADVISORY, event_t::WARNING) && OneOf(alarm.state, alarm_t::OVER) &&
+         IdOrNone(alarm.vehicle_id) && IdOrNone(alarm.other_vehicle_id) && IdOrNone(alarm.formation_id) &&
+         Text(alarm.text) && Time(alarm.raised_utime) && Time(alarm.cleared_utime) &&
+         Time(alarm.acknowledged_utime) && Text(alarm.acknowledged_by) && Time(alarm.shelved_until_utime) &&
+         Text(alarm.shelved_by);
+}
+
 bool ValidItem(const vehicle_info_t& info) {
   return Id(info.id) && Name(info.callsign) && Name(info.model) && Positive(info.k_speed_per_s) &&
          Positive(info.k_course_per_s) && Positive(info.k_climb_per_s) && NotNegative(info.min_speed_m_s) &&
@@ -169,6 +178,25 @@ bool ValidShape(std::string_view shape) {
 bool Valid(const ack_t& ack) {
   return Time(ack.utime) && Sequence(ack.command_session_id) && Sequence(ack.command_request_id) &&
          Name(ack.node) && Name(ack.command_channel) && Text(ack.reason);
+}
+
+bool Valid(const alarm_command_t& command) {
+  return ValidRequest(command) && OneOf(command.action, alarm_command_t::ACTION_UNSHELVE) &&
+         Text(command.operator_name) && Sequence(command.alarm_session_id) &&
+         Sequence(command.all_up_to_id) && Number(command.duration_s);
+}
+
+bool Valid(const alarm_list_t& list) {
+  const auto counts = {list.num_warnings,
+                       list.num_cautions,
+                       list.num_advisories,
+                       list.num_unacknowledged_warnings,
+                       list.num_unacknowledged_cautions,
+                       list.num_unacknowledged_advisories,
+                       list.num_not_listed};
+  return Time(list.utime) && Sequence(list.session_id) && Sequence(list.sequence) &&
+         Sequence(list.newest_id) && Every(counts, [](int count) { return count >= 0; }) &&
+         Chunk(list.chunk, list.chunk_count) && ValidItems(list.alarms);
 }
 
 bool Valid(const event_t& event) {

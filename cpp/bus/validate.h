@@ -1,6 +1,8 @@
 #pragma once
 
 #include <skein/ack_t.hpp>
+#include <skein/alarm_command_t.hpp>
+#include <skein/alarm_list_t.hpp>
 #include <skein/event_t.hpp>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_roster_t.hpp>
@@ -26,6 +28,8 @@
 namespace skein::bus {
 
 bool Valid(const ack_t& ack);
+bool Valid(const alarm_command_t& command);
+bool Valid(const alarm_list_t& list);
 bool Valid(const event_t& event);
 bool Valid(const fleet_command_t& command);
 bool Valid(const fleet_roster_t& roster);

@@ -44,6 +44,8 @@ std::vector<Bytes> Hostile() {
 template <typename Visit>
 void ForEveryType(Visit visit) {
   visit.template operator()<ack_t>();
+  visit.template operator()<alarm_command_t>();
+  visit.template operator()<alarm_list_t>();
   visit.template operator()<event_t>();
   visit.template operator()<fleet_command_t>();
   visit.template operator()<fleet_roster_t>();

@@ -47,6 +47,29 @@ ack_t Sample() {
 }
 
 template <>
+alarm_command_t Sample() {
+  auto command = Request<alarm_command_t>();
+  command.operator_name = "skein";
+  command.alarm_session_id = 1'698'000'000'000'000;
+  command.alarm_ids = {7, 8};
+  command.num_alarm_ids = 2;
+  return command;
+}
+
+template <>
+alarm_list_t Sample() {
+  auto list = Chunk<alarm_list_t>();
+  list.alarms = Two<alarm_t>([](alarm_t& item, int id) {
+    item.id = id;
+    item.condition = "link:3";
+    item.severity = event_t::WARNING;
+    item.text = "link of UAV3 lost";
+  });
+  list.num_alarms = 2;
+  return list;
+}
+
+template <>
 event_t Sample() {
   event_t event;
   event.event_node = "collision-monitor";
