@@ -64,6 +64,8 @@ void Check(const CollisionMonitorOptions& options) {
 CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitorOptions& options)
     : bus_(bus),
       events_(bus),
+      alarms_(bus, events_),
+      silence_(bus, alarms_),
       options_((Check(options), options)),
       membership_(bus.executor().Now(), options.strangers, options.formations),
       levels_from_(bus.executor().Now() + kSettling) {
@@ -120,8 +122,11 @@ void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_
   for (const vehicle_info_t& info : roster.vehicles) listed[info.id] = &info;
   // Who has left is forgotten; should it be heard on, it comes back as one that is not in the roster.
   if (missing_chunks == 0) {
-    std::erase_if(uavs_,
-                  [&](const auto& uav) { return uav.second.in_roster() && !listed.contains(uav.first); });
+    std::erase_if(uavs_, [&](const auto& uav) {
+      if (!uav.second.in_roster() || listed.contains(uav.first)) return false;
+      alarms_.End(uav.second.alarm_key());
+      return true;
+    });
   }
   for (const auto& [id, info] : listed) {
     const auto [uav, is_new] = uavs_.try_emplace(id, id, info->callsign, true, now, options_.link_times);
@@ -163,8 +168,14 @@ void CollisionMonitorNode::CheckLinks() {
     WatchedUav::Judgement judgement = uav.Judge(now);
     changed = changed || judgement.changed;
     if (!uav.in_roster() && uav.watch().downlink() == LinkState::kLost) {
+      alarms_.End(uav.alarm_key());
       entry = uavs_.erase(entry);
       continue;
+    }
+    if (judgement.alarm) {
+      alarms_.Raise(*judgement.alarm);
+    } else if (judgement.changed) {
+      alarms_.End(uav.alarm_key());
     }
     std::move(judgement.notices.begin(), judgement.notices.end(), std::back_inserter(notices));
     ++entry;
@@ -215,12 +226,22 @@ void CollisionMonitorNode::Sweep() {
   std::vector<Notice> notices;
   if (now >= levels_from_) {
     for (const AlertChange& change : levels_.Sweep(now, fleet, membership_.rules())) {
+      const Notice notice = Describe(change, fleet);
+      RaiseOrEnd(change, notice);
       const bool worse = change.pair.level > change.before;
-      if (worse || change.pair.level == AlertLevel::kClear) notices.push_back(Describe(change, fleet));
+      if (worse || change.pair.level == AlertLevel::kClear) notices.push_back(notice);
     }
   }
   PublishProximity(now, fleet);
   Tell(std::move(notices));
+}
+
+void CollisionMonitorNode::RaiseOrEnd(const AlertChange& change, const Notice& notice) {
+  const PairAlert& pair = change.pair;
+  const std::string key = fmt::format("proximity:{}-{}", pair.first_id, pair.second_id);
+  // An advisory is for looking, not for acting: PROXIMITY and the table show it.
+  if (pair.level < AlertLevel::kCaution) return alarms_.End(key);
+  alarms_.Raise({key, pair.level, notice.text, pair.first_id, pair.second_id, notice.formation_id});
 }
 
 void CollisionMonitorNode::PublishProximity(Utime now, const std::vector<Traffic>& fleet) {

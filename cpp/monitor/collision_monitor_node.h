@@ -13,7 +13,9 @@
 #include "bus/bus.h"
 #include "bus/events.h"
 #include "core/alert_levels.h"
+#include "monitor/alarm_desk.h"
 #include "monitor/membership.h"
+#include "monitor/silence_watch.h"
 #include "monitor/watched_uav.h"
 
 namespace skein::monitor {
@@ -32,7 +34,8 @@ struct CollisionMonitorOptions {
 /// Throws std::invalid_argument naming the field and the reason.
 void Check(const CollisionMonitorOptions& options);
 
-/// Hears FLEET_ROSTER, FLEET_STATE, CMD_FLEET, FORMATION. Sends PROXIMITY, LINK_STATUS, EVENT.
+/// Hears FLEET_ROSTER, FLEET_STATE, CMD_FLEET, FORMATION, HEARTBEAT, CMD_ALARM. Sends PROXIMITY, LINK_STATUS,
+/// ALARMS, EVENT, ACK.
 ///
 /// Watched is every UAV of the roster, and every other one for as long as it is heard. One that was never
 /// heard has no place: it is in LINK_STATUS (unknown for 5 s, lost after that), but not in PROXIMITY. One
@@ -53,6 +56,8 @@ class CollisionMonitorNode {
   void Sweep();
   void PublishProximity(bus::Utime now, const std::vector<Traffic>& fleet);
 
+  void RaiseOrEnd(const AlertChange& change, const Notice& notice);
+
   std::vector<Traffic> Locate(bus::Utime now) const;
   Notice Describe(const AlertChange& change, const std::vector<Traffic>& fleet) const;
   std::string CallsignOf(int id) const;
@@ -61,6 +66,8 @@ class CollisionMonitorNode {
 
   bus::Bus& bus_;
   bus::Events events_;
+  AlarmDesk alarms_;
+  SilenceWatch silence_;
   CollisionMonitorOptions options_;
   Membership membership_;
   AlertLevels levels_;

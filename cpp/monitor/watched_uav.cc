@@ -82,7 +82,21 @@ WatchedUav::Judgement WatchedUav::Judge(bus::Utime now) {
     judgement.notices.push_back(
         Tell(event_t::INFO, "link_late", fmt::format("uplink of {} late: {}", callsign_, disobeys())));
   }
+  judgement.alarm = LinkAlarm(judgement.notices);
   return judgement;
+}
+
+std::string WatchedUav::alarm_key() const { return fmt::format("link:{}", id_); }
+
+std::optional<AlarmCondition> WatchedUav::LinkAlarm(const std::vector<Notice>& notices) const {
+  const bool late = downlink_ == LinkState::kLate || uplink_ == LinkState::kLate;
+  if (!watch_.lost() && !late) return std::nullopt;
+  AlarmCondition alarm{alarm_key(), watch_.lost() ? AlertLevel::kWarning : AlertLevel::kCaution,
+                       fmt::format("link of {} {}", callsign_, watch_.lost() ? "lost" : "late"), id_};
+  for (const Notice& notice : notices) {
+    if (notice.code == (watch_.lost() ? "link_lost" : "link_late")) alarm.text = notice.text;
+  }
+  return alarm;
 }
 
 std::optional<Estimate> WatchedUav::Locate(bus::Utime now, const UncertaintyGrowth& growth) const {

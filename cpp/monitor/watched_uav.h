@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bus/executor.h"
+#include "core/alarm_register.h"
 #include "core/dead_reckoning.h"
 #include "core/link_watch.h"
 
@@ -27,6 +28,7 @@ class WatchedUav {
 
   int id() const { return id_; }
   const std::string& callsign() const { return callsign_; }
+  std::string alarm_key() const;
   bool in_roster() const { return in_roster_; }
   void Enrol(const std::string& callsign);
 
@@ -37,6 +39,7 @@ class WatchedUav {
   struct Judgement {
     bool changed = false;  ///< a direction is in another state than at the last judgement
     std::vector<Notice> notices;
+    std::optional<AlarmCondition> alarm;  ///< none: the link is in order, or as it was
   };
   /// To be called often. Late, lost and restored are told once each. When both directions fail, the loss of
   /// the downlink is told: what became of the uplink cannot be known without it.
@@ -48,6 +51,7 @@ class WatchedUav {
   std::optional<Estimate> Locate(bus::Utime now, const UncertaintyGrowth& growth) const;
 
  private:
+  std::optional<AlarmCondition> LinkAlarm(const std::vector<Notice>& notices) const;  ///< none: in order
   Notice Tell(std::int8_t severity, std::string code, std::string text) const;
   std::string DownlinkFault(bus::Utime now) const;
 

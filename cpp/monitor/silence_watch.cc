@@ -1,0 +1,53 @@
+#include "monitor/silence_watch.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <skein/fleet_state_t.hpp>
+#include <skein/heartbeat_t.hpp>
+
+#include "bus/channels.h"
+
+namespace skein::monitor {
+namespace {
+
+constexpr bus::Utime kLookPeriod = bus::kSecond / 2;
+constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;  // three heartbeats
+constexpr const char* kController = "formation-controller";
+// Whoever can send HEARTBEAT can invent names.
+constexpr std::size_t kMostNodes = 100;
+
+AlarmCondition NodeSilent(const std::string& node) {
+  const bool steers = node == kController;
+  return {"node_silent:" + node, steers ? AlertLevel::kWarning : AlertLevel::kCaution,
+          fmt::format("{} has fallen silent{}", node, steers ? ": nobody steers the formations" : "")};
+}
+
+}  // namespace
+
+SilenceWatch::SilenceWatch(bus::Bus& bus, AlarmDesk& alarms) : bus_(bus), alarms_(alarms) {
+  bus.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [this](const heartbeat_t& heartbeat) {
+    const std::string& node = heartbeat.heartbeat_node;
+    if (nodes_.size() < kMostNodes || nodes_.contains(node)) nodes_[node] = bus_.executor().Now();
+  });
+  bus.Subscribe<fleet_state_t>(bus::channel::kFleetState,
+                               [this](const fleet_state_t&) { fleet_ = bus_.executor().Now(); });
+  bus.executor().Every(kLookPeriod, [this] { Look(); });
+}
+
+void SilenceWatch::Look() {
+  const bus::Utime now = bus_.executor().Now();
+  const auto judge = [&](bus::Utime heard, const AlarmCondition& silence) {
+    if (now - heard >= kSilentAfter) {
+      alarms_.Raise(silence);
+    } else {
+      alarms_.End(silence.key);
+    }
+  };
+  for (const auto& [node, heard] : nodes_) judge(heard, NodeSilent(node));
+  if (fleet_) {
+    judge(*fleet_, {"fleet_silent", AlertLevel::kWarning,
+                    "no telemetry from any UAV: the source of FLEET_STATE has fallen silent"});
+  }
+}
+
+}  // namespace skein::monitor
