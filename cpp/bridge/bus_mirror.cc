@@ -48,6 +48,9 @@ BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
   bus::SubscribeChunks<link_status_t>(bus, channel::kLinkStatus, [this](const auto& links, int) {
     if (fleet_.Take(links)) SendStatusSoon();
   });
+  bus::SubscribeChunks<alarm_list_t>(bus, channel::kAlarms, [this](const auto& list, int missing) {
+    if (missing == 0) Hear(list);
+  });
   bus.Subscribe<formation_t>(channel::kFormation, [this](const auto& formation) { Hear(formation); });
   bus.Subscribe<path_t>(channel::kPath, [this](const auto& path) { Hear(path); });
   bus.Subscribe<event_t>(channel::kEvent, [this](const auto& event) { Hear(event); });
@@ -146,6 +149,15 @@ void BusMirror::Hear(const heartbeat_t& heartbeat) {
   sink_(TextFrame(Dump(known.shown), "heartbeat/" + heartbeat.heartbeat_node));
 }
 
+void BusMirror::Hear(const alarm_list_t& list) {
+  Json shown = ToJson(list);
+  // It is repeated with a new time each time.
+  if (!alarms_.is_null()) alarms_["utime"] = shown["utime"];
+  if (alarms_ == shown) return;
+  alarms_ = std::move(shown);
+  sink_(TextFrame(Dump(alarms_), "alarms"));
+}
+
 void BusMirror::Look() {
   std::set<std::string> silent;
   for (const auto& [node, heartbeat] : heartbeats_) {
@@ -227,6 +239,7 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
   for (const auto& [node, heartbeat] : heartbeats_) {
     frames.push_back(TextFrame(Dump(heartbeat.shown), "heartbeat/" + node));
   }
+  if (!alarms_.is_null()) frames.push_back(TextFrame(Dump(alarms_), "alarms"));
   for (const Json& event : events_) frames.push_back(TextFrame(Dump(event)));
   if (!fleet_.rows().empty()) {
     frames.push_back(Motion());
@@ -280,6 +293,7 @@ Json BusMirror::State() const {
                 {"paths", Json::array()},
                 {"statuses", Json::array()},
                 {"heartbeats", Json::array()},
+                {"alarms", alarms_},
                 {"events", Json(events_)}};
   for (const auto& [id, formation] : formations_) state["formations"].push_back(formation.shown);
   for (const auto& [id, path] : paths_) state["paths"].push_back(path.shown);

@@ -77,6 +77,7 @@ class BusMirror {
   void Hear(const path_t& path);
   void Hear(const event_t& event);
   void Hear(const heartbeat_t& heartbeat);
+  void Hear(const alarm_list_t& list);
 
   void Draw(DrawnPath& path);
   void Look();
@@ -110,6 +111,7 @@ class BusMirror {
   std::map<std::int32_t, double> leader_arcs_m_;
   std::map<std::int32_t, DrawnPath> paths_;
   std::map<std::string, Repeated> heartbeats_;
+  Json alarms_;  ///< null: none yet
   std::set<std::string> silent_;
   std::deque<Json> events_;
   bool motion_skipped_ = false;

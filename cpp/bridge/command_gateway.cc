@@ -13,6 +13,7 @@ namespace {
 using Outcome = CommandResult::Outcome;
 
 const char* Obeys(const std::string& channel) {
+  if (channel == bus::channel::kCmdAlarm) return "collision-monitor";
   const bool fleet = channel == bus::channel::kCmdLink || channel == bus::channel::kCmdPayload ||
                      channel == bus::channel::kCmdSimulation;
   return fleet ? "fleet-simulator" : "formation-controller";
@@ -41,9 +42,12 @@ void CommandGateway::Send(const std::string& channel, const nlohmann::json& body
       Publish(channel, ParsePathCommand(body), done);
     } else if (channel == bus::channel::kCmdSimulation) {
       Publish(channel, ParseSimulationCommand(body), done);
+    } else if (channel == bus::channel::kCmdAlarm) {
+      Publish(channel, ParseAlarmCommand(body), done);
     } else {
       done({Outcome::kMalformed,
-            "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH or CMD_SIMULATION, is " +
+            "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH, CMD_SIMULATION or CMD_ALARM, "
+            "is " +
                 channel.substr(0, 40)});
     }
   } catch (const config::ConfigError& error) {

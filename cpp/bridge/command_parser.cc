@@ -1,6 +1,7 @@
 #include "bridge/command_parser.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +25,13 @@ constexpr Range kSpeed_m_s{1, 1e3};
 constexpr std::size_t kMaxItems = 1000;
 
 int Integer(const Object& object, const char* key, Range range) { return object.At(key).Integer(range); }
+
+/// Ids of sessions and alarms. JSON has doubles: whole to 2^53.
+std::int64_t LongInteger(const Value& value) {
+  const double number = value.Number({1, 9007199254740992.0});
+  if (std::floor(number) != number) value.Refuse("must be a whole number");
+  return static_cast<std::int64_t>(number);
+}
 
 /// The index of a text among those that it may be.
 std::int8_t Choice(const Value& value, const std::vector<std::string>& choices) {
@@ -163,6 +171,26 @@ simulation_command_t ParseSimulationCommand(const nlohmann::json& body) {
   if (const auto seed = object.Find("seed")) {
     command.seed = seed->Integer({1, std::numeric_limits<std::int32_t>::max()});
   }
+  return command;
+}
+
+alarm_command_t ParseAlarmCommand(const nlohmann::json& body) {
+  const Object object(
+      Value::FromJson(body, bus::channel::kCmdAlarm),
+      {"action", "alarm_session_id", "alarm_ids", "all_up_to_id", "duration_s", "operator_name"});
+  alarm_command_t command{};
+  command.action = Choice(object.At("action"), {"acknowledge", "shelve", "unshelve"});
+  command.alarm_session_id = LongInteger(object.At("alarm_session_id"));
+  if (const auto ids = object.Find("alarm_ids")) {
+    for (const Value& item : FewItems(*ids)) command.alarm_ids.push_back(LongInteger(item));
+  }
+  if (const auto newest = object.Find("all_up_to_id")) command.all_up_to_id = LongInteger(*newest);
+  if (command.alarm_ids.empty() && command.all_up_to_id == 0) object.value().Refuse("names no alarm");
+  if (command.action == alarm_command_t::ACTION_SHELVE) {
+    command.duration_s = object.Number("duration_s", kSeconds);
+  }
+  command.operator_name = object.Text("operator_name", "web");
+  command.num_alarm_ids = static_cast<std::int32_t>(command.alarm_ids.size());
   return command;
 }
 

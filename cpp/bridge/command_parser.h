@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <skein/alarm_command_t.hpp>
 #include <skein/formation_command_t.hpp>
 #include <skein/link_command_t.hpp>
 #include <skein/path_command_t.hpp>
@@ -20,6 +21,7 @@ payload_command_t ParsePayloadCommand(const nlohmann::json& body);
 formation_command_t ParseFormationCommand(const nlohmann::json& body);
 path_command_t ParsePathCommand(const nlohmann::json& body);
 simulation_command_t ParseSimulationCommand(const nlohmann::json& body);
+alarm_command_t ParseAlarmCommand(const nlohmann::json& body);
 /// @}
 
 }  // namespace skein::bridge

@@ -41,6 +41,23 @@ Json SlotStatus(const slot_status_t& slot) {
           {"up_error_m", slot.up_error_m},           {"flown", slot.flown != 0}};
 }
 
+Json OneAlarm(const alarm_t& alarm) {
+  return {{"id", alarm.id},
+          {"condition", alarm.condition},
+          {"severity", alarm.severity},
+          {"state", alarm.state},
+          {"vehicle_id", alarm.vehicle_id},
+          {"other_vehicle_id", alarm.other_vehicle_id},
+          {"formation_id", alarm.formation_id},
+          {"text", alarm.text},
+          {"raised_utime", alarm.raised_utime},
+          {"cleared_utime", alarm.cleared_utime},
+          {"acknowledged_utime", alarm.acknowledged_utime},
+          {"acknowledged_by", alarm.acknowledged_by},
+          {"shelved_until_utime", alarm.shelved_until_utime},
+          {"shelved_by", alarm.shelved_by}};
+}
+
 Json Point(const waypoint_t& point) {
   return {{"east_m", point.east_m},
           {"north_m", point.north_m},
@@ -134,6 +151,21 @@ Json ToJson(const heartbeat_t& heartbeat) {
           {"handler_exceptions", heartbeat.handler_exceptions},
           {"worst_handler_us", heartbeat.worst_handler_us},
           {"receive_buffer_bytes", heartbeat.receive_buffer_bytes}};
+}
+
+Json ToJson(const alarm_list_t& list) {
+  return {{"type", "alarms"},
+          {"utime", list.utime},
+          {"session_id", list.session_id},
+          {"newest_id", list.newest_id},
+          {"num_warnings", list.num_warnings},
+          {"num_cautions", list.num_cautions},
+          {"num_advisories", list.num_advisories},
+          {"num_unacknowledged_warnings", list.num_unacknowledged_warnings},
+          {"num_unacknowledged_cautions", list.num_unacknowledged_cautions},
+          {"num_unacknowledged_advisories", list.num_unacknowledged_advisories},
+          {"num_not_listed", list.num_not_listed},
+          {"alarms", Each(list.alarms, OneAlarm)}};
 }
 
 Json ToJson(const path_t& path) {

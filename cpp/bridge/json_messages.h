@@ -1,6 +1,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <skein/alarm_list_t.hpp>
 #include <skein/event_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/formation_status_t.hpp>
@@ -20,6 +21,7 @@ Json ToJson(const formation_t& formation);
 Json ToJson(const formation_status_t& status);
 Json ToJson(const event_t& event);
 Json ToJson(const heartbeat_t& heartbeat);
+Json ToJson(const alarm_list_t& list);
 /// Without "line".
 Json ToJson(const path_t& path);
 

@@ -319,5 +319,28 @@ TEST_F(BusMirrorTest, ShowsNullForWhatIsNotKnownOfAVehicle) {
   EXPECT_EQ(known["downlink"], "late");
 }
 
+TEST_F(BusMirrorTest, AlarmsAreTakenOnAndTheirRepetitionIsNot) {
+  const auto send = [&](std::int64_t sequence, std::int8_t state) {
+    alarm_list_t list;
+    list.utime = Now();
+    list.session_id = 5;
+    list.sequence = sequence;
+    list.alarms.emplace_back();
+    list.alarms[0].id = 1;
+    list.alarms[0].condition = "link:3";
+    list.alarms[0].severity = event_t::WARNING;
+    list.alarms[0].state = state;
+    bus::PublishChunks(others_, channel::kAlarms, list);
+    executor_.RunFor(bus::kSecond);
+  };
+  send(0, alarm_t::UNACKNOWLEDGED);
+  send(1, alarm_t::UNACKNOWLEDGED);
+  EXPECT_EQ(Texts("alarms").size(), 1U);
+  send(2, alarm_t::ACKNOWLEDGED);
+  ASSERT_EQ(Texts("alarms").size(), 2U);
+  EXPECT_EQ(Texts("alarms")[1]["alarms"][0]["state"], alarm_t::ACKNOWLEDGED);
+  EXPECT_EQ(mirror_.State()["alarms"]["session_id"], 5);
+}
+
 }  // namespace
 }  // namespace skein::bridge

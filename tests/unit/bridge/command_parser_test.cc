@@ -138,5 +138,27 @@ TEST(PathCommand, MayBeEmptyButNotTooLong) {
       std::string::npos);
 }
 
+TEST(AlarmCommand, NamesAlarmsOrAllUpToOne) {
+  const auto one = ParseAlarmCommand(json::parse(
+      R"({"action": "acknowledge", "alarm_session_id": 1795316000123456, "alarm_ids": [7], "operator_name": "Ann"})"));
+  EXPECT_EQ(one.action, alarm_command_t::ACTION_ACKNOWLEDGE);
+  EXPECT_EQ(one.alarm_session_id, 1795316000123456);
+  ASSERT_EQ(one.num_alarm_ids, 1);
+  EXPECT_EQ(one.alarm_ids[0], 7);
+  EXPECT_EQ(one.operator_name, "Ann");
+  const auto all = ParseAlarmCommand(
+      json::parse(R"({"action": "acknowledge", "alarm_session_id": 5, "all_up_to_id": 12})"));
+  EXPECT_EQ(all.all_up_to_id, 12);
+  EXPECT_EQ(all.operator_name, "web");
+  EXPECT_EQ(Refusal(ParseAlarmCommand, R"({"action": "acknowledge", "alarm_session_id": 5})"),
+            "CMD_ALARM: names no alarm");
+  EXPECT_NE(Refusal(ParseAlarmCommand, R"({"action": "shelve", "alarm_session_id": 5, "alarm_ids": [1.5]})")
+                .find("/alarm_ids/0: must be a whole number"),
+            std::string::npos);
+  EXPECT_NE(Refusal(ParseAlarmCommand, R"({"action": "shelve", "alarm_session_id": 5, "alarm_ids": [1]})")
+                .find("duration_s"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace skein::bridge
