@@ -33,6 +33,7 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   AddPayload();
   AddScenario();
   AddStatus();
+  AddAlarms();
 }
 
 void CommandLine::AddLink() {
@@ -144,6 +145,37 @@ void CommandLine::AddStatus() {
   status->add_flag("--json", status_.json, "As JSON");
   status->callback([this] {
     command_ = [this](Station& station, std::ostream& out) { ShowStatus(station, status_, out); };
+  });
+}
+
+void CommandLine::AddAlarms() {
+  CLI::App* alarms = app_.add_subcommand("alarms", "What must be looked after, the most urgent first");
+  alarms->add_flag("--history", alarms_.history, "Those that are over, too");
+  alarms->add_flag("--json", alarms_.json, "As JSON");
+  alarms->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { ShowAlarms(station, alarms_, out); };
+  });
+
+  CLI::App* group = Group(app_, "alarm", "What an operator does about alarms");
+  CLI::App* ack = group->add_subcommand("ack", "Acknowledge alarms");
+  ack->add_option("id", alarm_ids_, "Numbers as `skein alarms` lists them, or all")->required();
+  ack->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { AcknowledgeAlarms(station, alarm_ids_, out); };
+  });
+  CLI::App* shelve = group->add_subcommand("shelve", "Put alarms away for a time");
+  shelve->add_option("id", alarm_ids_, "Numbers as `skein alarms` lists them")->required();
+  shelve->add_option("--for", shelve_s_, "For so many seconds, 1 to 3600")
+      ->check(CLI::Range(1, 3600))
+      ->capture_default_str();
+  shelve->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) {
+      ShelveAlarms(station, alarm_ids_, shelve_s_, out);
+    };
+  });
+  CLI::App* unshelve = group->add_subcommand("unshelve", "Take alarms off the shelf");
+  unshelve->add_option("id", alarm_ids_, "Numbers as `skein alarms` lists them")->required();
+  unshelve->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { UnshelveAlarms(station, alarm_ids_, out); };
   });
 }
 

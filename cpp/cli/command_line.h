@@ -5,6 +5,7 @@
 #include <ostream>
 #include <string>
 
+#include "cli/alarms.h"
 #include "cli/commands.h"
 
 namespace skein::cli {
@@ -27,6 +28,7 @@ class CommandLine {
   void AddPayload();
   void AddScenario();
   void AddStatus();
+  void AddAlarms();
 
   CLI::App app_;
   std::string lcm_url_;
@@ -34,6 +36,9 @@ class CommandLine {
   LinkOptions link_;
   PathOptions path_;
   StatusOptions status_;
+  AlarmsOptions alarms_;
+  std::vector<std::string> alarm_ids_;
+  double shelve_s_ = 60;
   std::vector<std::string> vehicles_;
   std::string file_;
   std::string scenario_;

@@ -27,6 +27,9 @@ Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)) {
   });
   bus::SubscribeChunks<link_status_t>(bus, channel::kLinkStatus,
                                       [this](const link_status_t& links, int) { picture_.links = links; });
+  bus::SubscribeChunks<alarm_list_t>(bus, channel::kAlarms, [this](const alarm_list_t& list, int missing) {
+    if (missing == 0) picture_.alarms = list;
+  });
   bus::SubscribeChunks<formation_status_t>(
       bus, channel::kFormationStatus,
       [this](const formation_status_t& status, int) { picture_.statuses[status.formation_id] = status; });

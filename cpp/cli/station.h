@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <skein/alarm_list_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/fleet_state_t.hpp>
 #include <skein/formation_status_t.hpp>
@@ -36,6 +37,7 @@ struct Picture {
   std::optional<fleet_state_t> state;
   std::optional<proximity_t> proximity;
   std::optional<link_status_t> links;
+  std::optional<alarm_list_t> alarms;
   std::map<int, formation_t> formations;
   std::map<int, path_t> paths;
   std::map<int, formation_status_t> statuses;

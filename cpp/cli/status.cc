@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "cli/text_table.h"
 #include "cli/vehicles.h"
 #include "core/frames.h"
 
@@ -65,27 +66,6 @@ std::string LinkText(const vehicle_link_t& link) {
   if (link.downlink != link_status_t::LINK_UP) text = fmt::format("down {}", state(link.downlink));
   if (link.uplink != link_status_t::LINK_UP)
     text += fmt::format("{}up {}", text.empty() ? "" : ", ", state(link.uplink));
-  return text;
-}
-
-using Table = std::vector<std::vector<std::string>>;
-
-/// Columns as wide as their widest cell; the first `left` of them flush left.
-std::string Aligned(const Table& table, std::size_t left) {
-  std::vector<std::size_t> widths(table.front().size());
-  for (const auto& row : table) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string text;
-  for (const auto& row : table) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      if (i > 0) line += "  ";
-      line += i < left ? fmt::format("{:<{}}", row[i], widths[i]) : fmt::format("{:>{}}", row[i], widths[i]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
   return text;
 }
 

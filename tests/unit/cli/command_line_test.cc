@@ -345,6 +345,48 @@ TEST_F(CommandLineTest, ShowsTheStatusOfEveryUavOfTheRoster) {
       << table;
 }
 
+TEST_F(CommandLineTest, ListsAlarmsAndActsOnThem) {
+  std::vector<alarm_command_t> got;
+  Obey(channel::kCmdAlarm, got);
+  EXPECT_EQ(FailureOf({"alarms"}),
+            "no alarms were heard for 2.5 s: is collision-monitor running, and on this LCM URL?");
+  executor_.Every(bus::kSecond, [this, sequence = std::int64_t{0}]() mutable {
+    alarm_list_t list;
+    list.utime = executor_.Now();
+    list.session_id = 5;
+    list.sequence = sequence++;
+    list.newest_id = 12;
+    list.num_not_listed = 4;
+    for (const int id : {12, 9}) {
+      alarm_t& alarm = list.alarms.emplace_back();
+      alarm.id = id;
+      alarm.condition = "link:3";
+      alarm.severity = event_t::WARNING;
+      alarm.state = id == 12 ? alarm_t::UNACKNOWLEDGED : alarm_t::OVER;
+      alarm.text = "link of UAV3 lost";
+      alarm.raised_utime = list.utime - 7 * bus::kSecond;
+    }
+    bus::PublishChunks(node_, channel::kAlarms, list);
+  });
+  EXPECT_EQ(Skein({"alarms"}),
+            "id  severity  state           raised   alarm\n"
+            "12  WARNING   UNACKNOWLEDGED  7 s ago  link of UAV3 lost\n"
+            "and 4 less urgent ones\n");
+  EXPECT_EQ(nlohmann::json::parse(Skein({"alarms", "--json", "--history"})).size(), 2U);
+  EXPECT_EQ(Skein({"alarm", "ack", "12"}), "alarm 12 acknowledged\n");
+  EXPECT_EQ(Skein({"alarm", "ack", "all"}), "all alarms acknowledged\n");
+  EXPECT_EQ(Skein({"alarm", "shelve", "12", "9", "--for", "90"}), "alarms 12 9 shelved for 90 s\n");
+  EXPECT_EQ(Skein({"alarm", "unshelve", "12"}), "alarm 12 unshelved\n");
+  EXPECT_EQ(FailureOf({"alarm", "ack", "UAV3"}),
+            "alarms have numbers, as `skein alarms` lists them, not \"UAV3\"");
+  ASSERT_EQ(got.size(), 4U);
+  EXPECT_EQ(got[0].alarm_session_id, 5);
+  EXPECT_EQ(got[0].alarm_ids, std::vector<std::int64_t>{12});
+  EXPECT_EQ(got[1].all_up_to_id, 12);
+  EXPECT_EQ(got[2].duration_s, 90);
+  EXPECT_EQ(got[3].action, alarm_command_t::ACTION_UNSHELVE);
+}
+
 TEST(CommandLineUsage, RefusesWhatMakesNoSense) {
   for (const std::vector<std::string>& words :
        std::vector<std::vector<std::string>>{{},
