@@ -130,6 +130,8 @@ class FormationFlight {
   std::int8_t mode_ = formation_status_t::MODE_WAITING;
   bus::Utime mode_utime_ = 0;
   bus::Utime mode_end_utime_ = 0;
+  double climb_from_m_ = 0;  ///< offset of the body when its present change of altitude began
+  double climb_to_m_ = 0;    ///< its target
   std::string mode_text_ = "waiting for telemetry";
 };
 

@@ -17,6 +17,14 @@ std::string Distance(double metres) {
   return metres < 1000 ? fmt::format("{:.0f} m", metres) : fmt::format("{:.1f} km", metres / 1000);
 }
 
+/// The whole of it, and what is left: "climbing 200 m (8 m to go)".
+std::string ClimbText(double whole_m, double left_m, const char* where_to = "") {
+  std::string text =
+      fmt::format("{} {:.0f} m{}", whole_m > 0 ? "climbing" : "descending", std::abs(whole_m), where_to);
+  if (std::abs(whole_m - left_m) >= 1) text += fmt::format(" ({:.0f} m to go)", std::abs(left_m));
+  return text;
+}
+
 }  // namespace
 
 void FormationFlight::UpdateMode(const FleetPicture& fleet) {
@@ -46,9 +54,13 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
   }
 
   const AltitudeRamp& body = avoidance_.body();
-  const double change = body.target_m() - body.now().height_m;
-  const std::string climb =
-      fmt::format("{} {:.0f} m", change > 0 ? "climbing" : "descending", std::abs(change));
+  if (body.target_m() != climb_to_m_) {
+    climb_from_m_ = body.now().height_m;
+    climb_to_m_ = body.target_m();
+  }
+  const double whole_m = climb_to_m_ - climb_from_m_;
+  const double left_m = climb_to_m_ - body.now().height_m;
+  const std::string climb = ClimbText(whole_m, left_m);
   const std::string level = body.target_m() == 0
                                 ? "at the planned altitude"
                                 : fmt::format("{:.0f} m {} the planned altitude", std::abs(body.target_m()),
@@ -71,7 +83,7 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
                              Distance(rejoin_distance));
   } else if (avoidance_.active() && !body.settled()) {
     mode = formation_status_t::MODE_REJOINING;
-    mode_text_ = climb + " to the planned altitude";
+    mode_text_ = ClimbText(whole_m, left_m, " to the planned altitude");
   } else if (avoidance_.blocked()) {
     mode = formation_status_t::MODE_REJOINING;
     mode_text_ = level + ": other traffic is in the way to the planned altitude";

@@ -226,12 +226,18 @@ TEST(FormationFlight, TellsWhatItDoesWhenALinkIsLostAndComesBack) {
   EXPECT_GT(bench.flight.Status(0).mode_end_utime, bench.flight.Status(0).utime);
   fly(50);
   EXPECT_DOUBLE_EQ(bench.flight.Status(0).avoidance_up_m, 200);
+  EXPECT_TRUE(texts.contains("climbing 200 m: link of UAV3 lost"));
+  EXPECT_TRUE(texts.contains("climbing 200 m (8 m to go): link of UAV3 lost"));
   EXPECT_TRUE(texts.contains("200 m above the planned altitude: link of UAV3 lost"));
   bench.Restore(3);
   fly(10);
   EXPECT_EQ(bench.flight.Status(0).mode, formation_status_t::MODE_REJOINING);
   fly(200);
   EXPECT_EQ(bench.flight.Status(0).mode_text, "in formation");
+  EXPECT_TRUE(std::any_of(texts.begin(), texts.end(), [](const std::string& text) {
+    return text.starts_with("descending 200 m (100 m to go)") ||
+           text == "descending 200 m to the planned altitude (100 m to go)";
+  }));
   EXPECT_GT(bench.LeastSeparation(), 1);
 }
 
