@@ -95,6 +95,7 @@ test("a payload is switched from the page, and shown on when telemetry says so",
 test("after a cut from the page the chain breaks and the others climb 200 m", async () => {
   explain();
   await screen.page.keyboard.press("f");
+  await screen.page.getByRole("tab", { name: "Events" }).click();
   await screen.button("Cut the link of UAV3").click();
   await until(async () => expect((await screen.uav(3)).downlink).toBe("lost"), 15_000);
   // Found within 5 s of the cut, whatever this machine is busy with; times on the screen are whole seconds.

@@ -132,6 +132,43 @@ export interface BusEvent {
   text: string;
 }
 
+export interface Alarm {
+  /** A condition that comes back or becomes worse has a new one. */
+  id: number;
+  condition: string;
+  /** 1 advisory, 2 caution, 3 warning. */
+  severity: number;
+  /** alarm_t's states: alarms/alarm_list.ts. */
+  state: number;
+  /** 0: none, as with the other two. */
+  vehicle_id: number;
+  other_vehicle_id: number;
+  formation_id: number;
+  text: string;
+  raised_utime: number;
+  /** 0: not yet, as with the other times. */
+  cleared_utime: number;
+  acknowledged_utime: number;
+  acknowledged_by: string;
+  shelved_until_utime: number;
+  shelved_by: string;
+}
+
+export interface AlarmList {
+  type: "alarms";
+  utime: number;
+  session_id: number;
+  newest_id: number;
+  num_warnings: number;
+  num_cautions: number;
+  num_advisories: number;
+  num_unacknowledged_warnings: number;
+  num_unacknowledged_cautions: number;
+  num_unacknowledged_advisories: number;
+  num_not_listed: number;
+  alarms: Alarm[];
+}
+
 export interface Heartbeat {
   type: "heartbeat";
   utime: number;
@@ -161,6 +198,7 @@ export type ServerMessage =
   | Path
   | FormationStatus
   | BusEvent
+  | AlarmList
   | Heartbeat
   | Ack
   | BusHealth
@@ -183,11 +221,24 @@ export type ControlBody =
   | { action: "give" | "refuse"; person: number }
   | { action: "rename"; name: string };
 
+export interface AlarmBody {
+  action: "acknowledge" | "shelve" | "unshelve";
+  /** Of the list that the person sees. */
+  alarm_session_id: number;
+  alarm_ids?: readonly number[];
+  /** All up to this one. */
+  all_up_to_id?: number;
+  /** To shelve. */
+  duration_s?: number;
+  operator_name?: string;
+}
+
 export interface CommandBodies {
   CMD_LINK: LinkBody;
   CMD_SIMULATION: { action: "restart" } | { action: "load"; scenario: string };
   CMD_PAYLOAD: { vehicle_ids: number[]; on: boolean };
   CMD_PATH: { formation_id: number; closed: boolean; waypoints: readonly Waypoint[] };
+  CMD_ALARM: AlarmBody;
   CMD_FORMATION:
     | { action: "apply"; formation: FormationBody }
     | { action: "hold" | "resume" | "remove"; formation: { formation_id: number } };

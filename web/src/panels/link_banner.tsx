@@ -1,3 +1,4 @@
+import { kMonitor } from "../alarms/service";
 import type { Store } from "../state/store";
 import { duration, utc } from "../units/format";
 
@@ -15,7 +16,7 @@ export function LinkBanner({ store, retry }: { store: Store; retry: () => void }
     return (
       <div class="banner" role="status">
         <p>
-          <strong>Reconnecting to web-bridge…</strong>
+          <strong>Reconnecting to web-bridge… No alarms can come.</strong>
           {old}
         </p>
         <p class="detail">{wait_s > 0 ? `Next attempt in ${wait_s} s.` : "Trying now."}</p>
@@ -38,6 +39,7 @@ export function LinkBanner({ store, retry }: { store: Store; retry: () => void }
             : `No telemetry for ${duration(silence_s)}.`}
         </strong>
         {silence_s !== null && silent.length > 0 && ` Not heard: ${silent.join(", ")}.`}
+        {silent.includes(kMonitor) && <strong> No alarms can come.</strong>}
         {silence_s !== null && old}
       </p>
       <p class="detail">

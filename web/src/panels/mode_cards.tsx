@@ -1,10 +1,12 @@
+import { kLinkLost } from "../state/fleet";
 import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import { clock, duration } from "../units/format";
+import { sameWords, withLossAge } from "./mode_text";
 
 /** formation_status_t's modes. */
 export const kModes = ["Assembling", "In formation", "Avoiding", "Rejoining", "Holding", "Waiting"] as const;
-/** More formations than this have a line each instead of a card. */
+/** More formations than this have two lines each instead of a card. */
 const kMostCards = 3;
 const kShapes: Readonly<Record<string, string>> = {
   line_abreast: "line abreast",
@@ -12,7 +14,7 @@ const kShapes: Readonly<Record<string, string>> = {
   echelon_right: "echelon right",
 };
 
-/** What the station is doing with each formation, and since when. */
+/** What the station is doing with each formation, why, since when and until when. */
 export function ModeCards({ store }: { store: Store }) {
   const statuses = [...store.statuses.value.values()].sort((a, b) => a.formation_id - b.formation_id);
   return (
@@ -34,8 +36,9 @@ function ModeCard({ store, status }: { store: Store; status: FormationStatus }) 
   const shape = formation === undefined ? "" : (kShapes[formation.shape] ?? formation.shape);
   const mode = kModes[status.mode] ?? `Mode ${status.mode}`;
   const name = formation?.name ? formation.name : `Formation ${status.formation_id}`;
+  const text = withLossAge(status.mode_text, lossAge_s(store, status));
   return (
-    <li class="panel mode-card" data-mode={status.mode}>
+    <li class="panel mode-card" data-mode={status.mode} data-formation={status.formation_id}>
       <p class="mode-head">
         <span class="mode-name">{mode}</span>
         <span class="mode-of">
@@ -43,26 +46,42 @@ function ModeCard({ store, status }: { store: Store; status: FormationStatus }) 
           {shape !== "" && shape !== name.toLowerCase() && `, ${shape}`}
         </span>
       </p>
-      {!sameWords(status.mode_text, mode) && <p class="mode-text">{status.mode_text}</p>}
-      <Since store={store} status={status} />
+      {!sameWords(status.mode_text, mode) && <p class="mode-text">{text}</p>}
+      <Times store={store} status={status} />
     </li>
   );
 }
 
-/** A text that only repeats the mode's name says nothing. */
-function sameWords(text: string, mode: string): boolean {
-  return text === "" || text.toLowerCase() === mode.toLowerCase();
+/** Since the longest lost of its UAVs was heard or obeyed [s]; null: none is lost. */
+function lossAge_s(store: Store, { slots }: FormationStatus): number | null {
+  const { fleet } = store;
+  const now_ms = store.now_ms.value;
+  const ages_s = slots.flatMap(({ vehicle_id }) => {
+    const row = fleet.statusRow(vehicle_id);
+    if (row < 0 || fleet.status === null) return [];
+    if (fleet.status.downlink[row] === kLinkLost) return [fleet.downlinkAge_s(vehicle_id, now_ms)];
+    return fleet.status.uplink[row] === kLinkLost ? [fleet.uplinkAge_s(vehicle_id, now_ms)] : [];
+  });
+  const oldest_s = Math.max(-1, ...ages_s);
+  return oldest_s < 0 ? null : oldest_s;
 }
 
-function Since({ store, status }: { store: Store; status: FormationStatus }) {
+function Times({ store, status }: { store: Store; status: FormationStatus }) {
   const start_utime = store.roster.value?.start_utime ?? status.mode_utime;
   const utime = store.utimeAt(store.now_ms.value) ?? status.utime;
-  const ends =
-    status.mode_end_utime > 0 ? `, until T+ ${clock((status.mode_end_utime - start_utime) / 1e6)}` : "";
+  const at = (event_utime: number) => `T+ ${clock((event_utime - start_utime) / 1e6)}`;
+  const left_s = Math.ceil((status.mode_end_utime - utime) / 1e6);
   return (
     <p class="mode-since">
-      since T+ {clock((status.mode_utime - start_utime) / 1e6)} ({duration((utime - status.mode_utime) / 1e6)}
-      ){ends}
+      <span class="mode-from">
+        since {at(status.mode_utime)} ({duration((utime - status.mode_utime) / 1e6)})
+      </span>
+      {status.mode_end_utime > 0 && (
+        <span class="mode-end">
+          {left_s > 0 ? `${duration(left_s)} to go, until ` : "due at "}
+          {at(status.mode_end_utime)}
+        </span>
+      )}
     </p>
   );
 }

@@ -1,8 +1,9 @@
 /** All panels of the page, one entry each. A new panel is a new line here. */
 import type { ComponentType } from "preact";
+import { AlarmPanel } from "../alarms/alarm_panel";
+import { EventList } from "../events/event_list";
 import { FormationPanel } from "../formation/formation_panel";
 import { ChartsPanel } from "../charts/charts_panel";
-import { EventList } from "../panels/event_list";
 import { PlanPanel } from "../plan/plan_panel";
 import { PayloadPanel } from "../payload/payload_panel";
 import { FormationTable } from "../table/formation_table";
@@ -42,7 +43,10 @@ export const kDrawerPanels: readonly DrawerSpec[] = [
 ];
 
 /** Beside the map on the right. */
-export const kSidePanels: readonly PanelSpec[] = [{ id: "events", title: "Events", view: EventList }];
+export const kSidePanels: readonly PanelSpec[] = [
+  { id: "alarms", title: "Alarms", view: AlarmPanel },
+  { id: "events", title: "Events", view: EventList },
+];
 
 /** Below the map. */
 export const kDockPanels: readonly DockSpec[] = [

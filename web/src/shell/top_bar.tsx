@@ -1,4 +1,5 @@
 import { ControlPill } from "../control/control_pill";
+import { AlarmBadges } from "../alarms/alarm_badges";
 import { HoldControl } from "../formation/hold_control";
 import type { Store } from "../state/store";
 import { Brand } from "../panels/icons";
@@ -22,6 +23,7 @@ export function TopBar({ station }: PanelProps) {
       <Clock store={store} />
       <HoldControl station={station} />
       <ControlPill station={station} />
+      <AlarmBadges station={station} />
       <ConnectionPill store={store} />
       <SettingsMenu />
       <button

@@ -1,4 +1,5 @@
 import { expect, test } from "vitest";
+import { alarm, listOf } from "../alarms/list_for_tests";
 import type { Ack } from "../link/messages";
 import { motionFrame } from "./frames_for_tests";
 import { Store } from "./store";
@@ -45,12 +46,12 @@ test("formations, paths and statuses come and go", () => {
   expect(store.formations.value.size + store.paths.value.size + store.statuses.value.size).toBe(0);
 });
 
-test("events stand newest first, each once, the last 200", () => {
+test("events stand newest first, each once, the last 1000", () => {
   const store = filled(event(1, 10), event(3, 30), event(2, 20), event(3, 30));
   expect(store.events.value.map((e) => e.event_sequence)).toEqual([3, 2, 1]);
-  for (let i = 4; i <= 300; i += 1) store.takeText(JSON.stringify(event(i, 10 * i)));
-  expect(store.events.value).toHaveLength(200);
-  expect(store.events.value[0]?.event_sequence).toBe(300);
+  for (let i = 4; i <= 1100; i += 1) store.takeText(JSON.stringify(event(i, 10 * i)));
+  expect(store.events.value).toHaveLength(1000);
+  expect(store.events.value[0]?.event_sequence).toBe(1100);
 });
 
 test("a new hello forgets what the old bridge said, but not what happened nor the last fleet", () => {
@@ -90,6 +91,14 @@ test("what is shown is stale when the bridge or the bus is gone", () => {
   expect(store.utimeAt(4000)).toBe(5e6); // the clock stands still with the bus
   store.connection.value = { kind: "waiting", attempt: 1, retry_at_ms: 0 };
   expect(store.isStale(1500)).toBe(true);
+});
+
+test("alarms are those of the last list, and a new bridge has to be heard first", () => {
+  const store = filled(kHello, listOf([alarm(1, 0), alarm(2, 1)]));
+  store.takeText(JSON.stringify(listOf([alarm(2, 1)])));
+  expect(store.alarms.value?.alarms.map(({ id }) => id)).toEqual([2]);
+  store.takeText(JSON.stringify(kHello));
+  expect(store.alarms.value).toBeNull();
 });
 
 test("answers go to whoever asked", () => {

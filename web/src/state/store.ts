@@ -4,6 +4,7 @@ import type { ConnectionState } from "../link/connection";
 import type { Frame } from "../link/frames";
 import type {
   Ack,
+  AlarmList,
   BusEvent,
   Formation,
   FormationStatus,
@@ -16,7 +17,7 @@ import type {
 import type { ControlMessage } from "../control/people";
 import { Fleet } from "./fleet";
 
-const kMostEvents = 200;
+const kMostEvents = 1000;
 /** The bridge sends motion at 5 Hz or more while the bus lives. */
 const kBusSilence_ms = 2500;
 
@@ -24,11 +25,15 @@ export class Store {
   readonly fleet = new Fleet();
   readonly connection = signal<ConnectionState>({ kind: "connecting" });
   readonly hello = signal<Hello | null>(null);
+  /** When the bridge said hello (performance.now). */
+  hello_ms = 0;
   readonly roster = signal<Roster | null>(null);
   readonly formations = signal<ReadonlyMap<number, Formation>>(new Map());
   readonly paths = signal<ReadonlyMap<number, Path>>(new Map());
   readonly statuses = signal<ReadonlyMap<number, FormationStatus>>(new Map());
   readonly heartbeats = signal<ReadonlyMap<string, Heartbeat>>(new Map());
+  /** Null: the bridge has heard none. */
+  readonly alarms = signal<AlarmList | null>(null);
   readonly silent_nodes = signal<readonly string[]>([]);
   /** Newest first. */
   readonly events = signal<readonly BusEvent[]>([]);
@@ -75,6 +80,9 @@ export class Store {
         break;
       case "event":
         this.takeEvent(message);
+        break;
+      case "alarms":
+        this.alarms.value = message;
         break;
       case "heartbeat":
         this.heartbeats.value = withEntry(this.heartbeats.value, message.heartbeat_node, message);
@@ -135,10 +143,12 @@ export class Store {
   /** A bridge says hello first, then everything it knows: what it no longer knows is gone. What happened has happened. */
   private startOver(hello: Hello): void {
     this.hello.value = hello;
+    this.hello_ms = performance.now();
     this.formations.value = new Map();
     this.paths.value = new Map();
     this.statuses.value = new Map();
     this.heartbeats.value = new Map();
+    this.alarms.value = null;
     this.silent_nodes.value = [];
   }
 

@@ -33,6 +33,11 @@ export function utc(utime: number): string {
   return new Date(utime / 1000).toISOString().slice(11, 19);
 }
 
+/** A time on the bus [us] since the scenario's start; as UTC when it was before, or the start is not known. */
+export function missionTime(utime: number, start_utime: number): string {
+  return start_utime > 0 && utime >= start_utime ? `T+ ${clock((utime - start_utime) / 1e6)}` : utc(utime);
+}
+
 /** A span of time in words as short as can be: "8 s", "3 min 20 s", "2 h 5 min". */
 export function duration(seconds: number): string {
   const whole = Math.max(0, Math.floor(seconds));

@@ -1,0 +1,95 @@
+import { useRef } from "preact/hooks";
+import type { Alarm, AlarmList } from "../link/messages";
+import { CommandButton } from "../panels/command_button";
+import type { PanelProps } from "../shell/panel_list";
+import type { Station } from "../shell/station";
+import { acknowledgeAll, groupsOf, wantsAcknowledgement } from "./alarm_list";
+import { AlarmRow } from "./alarm_row";
+import { whyNoAlarms } from "./service";
+
+/** What must be looked after, what is shelved, and what is over. */
+export function AlarmPanel({ station }: PanelProps) {
+  const { store, commands } = station;
+  const list = store.alarms.value;
+  const { open, shelved, over } = groupsOf(list);
+  const trouble = whyNoAlarms(store, store.now_ms.value);
+  const unacknowledged = open.filter(wantsAcknowledgement).length;
+  return (
+    <section class="alarms" aria-label="Alarms">
+      <header class="alarms-head">
+        <p>
+          {open.length === 0
+            ? ""
+            : `${unacknowledged} of ${open.length + (list?.num_not_listed ?? 0)} not acknowledged`}
+        </p>
+        {list !== null && (
+          <CommandButton
+            class="button acknowledge-all"
+            label="Acknowledge all that is listed (Shift+A)"
+            disabled={unacknowledged === 0}
+            command={() => commands.request("CMD_ALARM", acknowledgeAll(list))}
+          >
+            Acknowledge all
+          </CommandButton>
+        )}
+      </header>
+      <div class="alarms-lists">
+        {trouble !== "" && <p class="alarms-trouble">{trouble}</p>}
+        {trouble === "" && open.length === 0 && <p class="empty">Nothing is wrong: no alarm is on.</p>}
+        {list !== null && (
+          <>
+            <Rows station={station} list={list} alarms={open} label="Alarms, the most urgent first" />
+            {list.num_not_listed > 0 && <p class="empty">And {list.num_not_listed} less urgent ones.</p>}
+            <Group station={station} list={list} alarms={shelved} title="Shelved" open />
+            <Group station={station} list={list} alarms={over} title="History" />
+          </>
+        )}
+      </div>
+    </section>
+  );
+}
+
+interface RowsProps {
+  station: Station;
+  list: AlarmList;
+  alarms: readonly Alarm[];
+  label: string;
+}
+
+/** Up and down go from alarm to alarm. */
+function Rows({ station, list, alarms, label }: RowsProps) {
+  const rows = useRef<HTMLOListElement>(null);
+  if (alarms.length === 0) return null;
+  const press = (event: KeyboardEvent) => {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (step === undefined || rows.current === null) return;
+    event.preventDefault();
+    const items = [...rows.current.querySelectorAll<HTMLElement>(":scope > li")];
+    const at = items.findIndex((item) => item.contains(document.activeElement));
+    items[Math.min(Math.max(at + step, 0), items.length - 1)]?.focus();
+  };
+  return (
+    <ol aria-label={label} ref={rows} onKeyDown={press}>
+      {alarms.map((alarm) => (
+        <AlarmRow key={alarm.id} station={station} list={list} alarm={alarm} />
+      ))}
+    </ol>
+  );
+}
+
+interface GroupProps extends Omit<RowsProps, "label"> {
+  title: string;
+  open?: boolean;
+}
+
+function Group({ title, open = false, ...rows }: GroupProps) {
+  if (rows.alarms.length === 0) return null;
+  return (
+    <details open={open} class="alarms-group">
+      <summary>
+        {title} <span class="count">{rows.alarms.length}</span>
+      </summary>
+      <Rows {...rows} label={title} />
+    </details>
+  );
+}
