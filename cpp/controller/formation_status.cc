@@ -21,7 +21,7 @@ std::string Distance(double metres) {
 std::string ClimbText(double whole_m, double left_m, const char* where_to = "") {
   std::string text =
       fmt::format("{} {:.0f} m{}", whole_m > 0 ? "climbing" : "descending", std::abs(whole_m), where_to);
-  if (std::abs(whole_m - left_m) >= 1) text += fmt::format(" ({:.0f} m to go)", std::abs(left_m));
+  if (std::abs(whole_m - left_m) >= 1) text += fmt::format(" ({:.0f} m to go)", std::ceil(std::abs(left_m)));
   return text;
 }
 

@@ -115,8 +115,11 @@ test("a lost link flashes in both browsers and sounds, and the mode line tells t
   expect((await flash())[0]).toBe("none");
   await screen.page.emulateMedia({ reducedMotion: "no-preference" });
   for (const theme of ["dark", "light"] as const) {
-    await screen.picture("alarms", 1280, 720, theme);
-    await screen.picture("alarms", 1920, 1080, theme);
+    await screen.picture(
+      "alarms",
+      ...(theme === "dark" ? ([1280, 720] as const) : ([1920, 1080] as const)),
+      theme,
+    );
     expect(await screen.barriers()).toEqual([]);
   }
 });
@@ -180,7 +183,7 @@ test("events are found by word, by severity and by UAV, which a click selects", 
     screen.page
       .locator(".events li[title]")
       .evaluateAll((rows) => rows.map((row) => /: (\w+),/.exec(row.getAttribute("title") ?? "")?.[1]));
-  await screen.page.getByLabel("Search events").fill("uav3 nothing heard");
+  await screen.page.getByLabel("Search events").fill("uav3 link_l nothing");
   await until(async () => expect(await codes()).toEqual(["link_lost", "link_late"]), 3000);
   await screen.page.getByLabel("Severity").selectOption("Warnings");
   await until(async () => expect(await codes()).toEqual(["link_lost"]), 3000);

@@ -35,7 +35,13 @@ export function AlarmPanel({ station }: PanelProps) {
       </header>
       <div class="alarms-lists">
         {trouble !== "" && <p class="alarms-trouble">{trouble}</p>}
-        {trouble === "" && open.length === 0 && <p class="empty">Nothing is wrong: no alarm is on.</p>}
+        {trouble === "" && open.length === 0 && (
+          <p class="empty">
+            {shelved.length === 0
+              ? "Nothing is wrong: no alarm is on."
+              : "No alarm is on beside what is shelved."}
+          </p>
+        )}
         {list !== null && (
           <>
             <Rows station={station} list={list} alarms={open} label="Alarms, the most urgent first" />

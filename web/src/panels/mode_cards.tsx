@@ -2,10 +2,8 @@ import { kLinkLost } from "../state/fleet";
 import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import { clock, duration } from "../units/format";
-import { sameWords, withLossAge } from "./mode_text";
+import { endOf, kModes, sameWords, withLossAge } from "./mode_text";
 
-/** formation_status_t's modes. */
-export const kModes = ["Assembling", "In formation", "Avoiding", "Rejoining", "Holding", "Waiting"] as const;
 /** More formations than this have two lines each instead of a card. */
 const kMostCards = 3;
 const kShapes: Readonly<Record<string, string>> = {
@@ -47,7 +45,7 @@ function ModeCard({ store, status }: { store: Store; status: FormationStatus }) 
         </span>
       </p>
       {!sameWords(status.mode_text, mode) && <p class="mode-text">{text}</p>}
-      <Times store={store} status={status} />
+      <Times store={store} status={status} hold={formation?.hold ?? false} />
     </li>
   );
 }
@@ -66,7 +64,13 @@ function lossAge_s(store: Store, { slots }: FormationStatus): number | null {
   return oldest_s < 0 ? null : oldest_s;
 }
 
-function Times({ store, status }: { store: Store; status: FormationStatus }) {
+interface TimesProps {
+  store: Store;
+  status: FormationStatus;
+  hold: boolean;
+}
+
+function Times({ store, status, hold }: TimesProps) {
   const start_utime = store.roster.value?.start_utime ?? status.mode_utime;
   const utime = store.utimeAt(store.now_ms.value) ?? status.utime;
   const at = (event_utime: number) => `T+ ${clock((event_utime - start_utime) / 1e6)}`;
@@ -76,12 +80,11 @@ function Times({ store, status }: { store: Store; status: FormationStatus }) {
       <span class="mode-from">
         since {at(status.mode_utime)} ({duration((utime - status.mode_utime) / 1e6)})
       </span>
-      {status.mode_end_utime > 0 && (
-        <span class="mode-end">
-          {left_s > 0 ? `${duration(left_s)} to go, until ` : "due at "}
-          {at(status.mode_end_utime)}
-        </span>
-      )}
+      <span class="mode-end">
+        {status.mode_end_utime === 0
+          ? endOf(status.mode, hold)
+          : `${left_s > 0 ? `${duration(left_s)} to go, until` : "due at"} ${at(status.mode_end_utime)}`}
+      </span>
     </p>
   );
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { sameWords, withLossAge } from "./mode_text";
+import { endOf, sameWords, withLossAge } from "./mode_text";
 
 describe("the text of a mode", () => {
   it("tells how long ago a link was lost", () => {
@@ -14,6 +14,13 @@ describe("the text of a mode", () => {
   it("is as it came when nothing is lost, or its age is not known", () => {
     expect(withLossAge("in formation", 3)).toBe("in formation");
     expect(withLossAge("climbing 200 m: link of UAV3 lost", null)).toBe("climbing 200 m: link of UAV3 lost");
+  });
+
+  it("says what it waits for when no time is known", () => {
+    expect(endOf(2, false)).toBe("until the link is back");
+    expect(endOf(4, true)).toBe("until Resume");
+    expect(endOf(4, false)).toBe("until there is a path");
+    expect(endOf(1, false)).toBe("");
   });
 
   it("is not shown when it only repeats the mode", () => {

@@ -1,4 +1,4 @@
-import { kModes } from "../panels/mode_cards";
+import { kModes } from "../panels/mode_text";
 import { kLinkLost } from "../state/fleet";
 import type { UavRow } from "../state/rows";
 import type { Store } from "../state/store";
