@@ -1,4 +1,4 @@
-import { kMonitor } from "../alarms/service";
+import { kMonitor, whyNoAlarms } from "../alarms/service";
 import type { Store } from "../state/store";
 import { duration, utc } from "../units/format";
 
@@ -29,17 +29,17 @@ export function LinkBanner({ store, retry }: { store: Store; retry: () => void }
 
   const silence_s = store.busSilence_s(now_ms);
   const silent = store.silent_nodes.value;
-  if (silence_s === null && silent.length === 0) return null;
+  const no_alarms = whyNoAlarms(store, now_ms);
+  const sentences = [
+    silence_s === null ? "" : `No telemetry for ${duration(silence_s)}.`,
+    silent.length === 0 ? "" : `Not heard: ${silent.join(", ")}.`,
+    silent.includes(kMonitor) ? "No alarms can come." : no_alarms,
+  ].filter(Boolean);
+  if (sentences.length === 0) return null;
   return (
     <div class="banner" role="status">
       <p>
-        <strong>
-          {silence_s === null
-            ? `Not heard: ${silent.join(", ")}.`
-            : `No telemetry for ${duration(silence_s)}.`}
-        </strong>
-        {silence_s !== null && silent.length > 0 && ` Not heard: ${silent.join(", ")}.`}
-        {silent.includes(kMonitor) && <strong> No alarms can come.</strong>}
+        <strong>{sentences.join(" ")}</strong>
         {silence_s !== null && old}
       </p>
       <p class="detail">
