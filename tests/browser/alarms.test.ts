@@ -114,12 +114,11 @@ test("a lost link flashes in both browsers and sounds, and the mode line tells t
   await screen.page.emulateMedia({ reducedMotion: "reduce" });
   expect((await flash())[0]).toBe("none");
   await screen.page.emulateMedia({ reducedMotion: "no-preference" });
-  for (const theme of ["dark", "light"] as const) {
-    await screen.picture(
-      "alarms",
-      ...(theme === "dark" ? ([1280, 720] as const) : ([1920, 1080] as const)),
-      theme,
-    );
+  for (const [width, height, theme] of [
+    [1280, 720, "dark"],
+    [1920, 1080, "light"],
+  ] as const) {
+    await screen.picture("alarms", width, height, theme);
     expect(await screen.barriers()).toEqual([]);
   }
 });
