@@ -94,7 +94,7 @@ export class Planner {
     });
     // The way from the leader to the first waypoint changes as the leader flies on.
     const timer = setInterval(() => {
-      this.preview.refresh();
+      void this.preview.refresh();
     }, kRefresh_ms);
     return () => {
       clearInterval(timer);
@@ -143,7 +143,7 @@ export class Planner {
 
   startReview(): void {
     this.drawing.value = false;
-    this.preview.refresh();
+    void this.preview.refresh();
     this.review.value = this.draft.peek()?.plan.peek() ?? null;
   }
 

@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { PathPlan } from "./path_plan";
-import { kQuiet_ms, Preview } from "./preview";
+import { kFlightOld_ms, kQuiet_ms, Preview } from "./preview";
 
 interface Asked {
   plan: PathPlan;
@@ -19,7 +19,7 @@ const api = {
         plan: { closed, waypoints },
         quick: geometry_only === true,
         answer: (ok) => {
-          resolve({ ok, reason: "", line: [], legs: [], problems: [] } as T);
+          resolve({ ok, reason: "", line: [], legs: [], problems: [], computed_ms: 100 } as T);
         },
         fail: (reason) => {
           reject(new Error(reason));
@@ -99,4 +99,24 @@ test("a failure is told, and forgotten with the next answer", async () => {
   asked[1]?.answer(true);
   await settle();
   expect(preview.failure.value).toBe("");
+});
+
+test("as the formation flies on the geometry is asked for again, and the flight once it is old", async () => {
+  const preview = new Preview(api);
+  preview.want(1, plan(1));
+  asked[0]?.answer(true);
+  await vi.advanceTimersByTimeAsync(kQuiet_ms);
+  asked[1]?.answer(true);
+  await settle();
+  void preview.refresh();
+  asked[2]?.answer(true);
+  await settle();
+  expect(asked.map((one) => one.quick)).toEqual([true, false, true]);
+  await vi.advanceTimersByTimeAsync(kFlightOld_ms + 1);
+  void preview.refresh();
+  asked[3]?.answer(true);
+  await settle();
+  expect(asked.map((one) => one.quick)).toEqual([true, false, true, true, false]);
+  // The old one stays in sight until the new one comes.
+  expect(preview.flight.value).not.toBeNull();
 });

@@ -22,6 +22,8 @@ export interface PathPreview {
 
 export interface FlightPreview extends PathPreview {
   duration_s: number;
+  complete: boolean;
+  computed_ms: number;
   least: {
     horizontal_m: number;
     vertical_m: number;
@@ -42,6 +44,9 @@ export interface Answer<T> {
 }
 
 export const kQuiet_ms = 500;
+export const kFlightOld_ms = 15_000;
+/** Of the time a flight takes the server, how often it is left alone. */
+const kLeastRest = 10;
 
 /** Asks for the newest plan only: geometry one after the other, the flight once nothing has changed for a while. */
 export class Preview {
@@ -65,9 +70,16 @@ export class Preview {
     void this.ask();
   }
 
-  /** Asks for the geometry once more, as the formation has flown on; its flight stays what it was. */
-  refresh(): void {
-    if (this.wanted !== null && !this.asking) void this.askGeometry(this.wanted);
+  /** Asks once more, as the formation has flown on; the flight only when it is old, and never most of the time. */
+  async refresh(): Promise<void> {
+    const { wanted } = this;
+    if (wanted === null || this.asking) return;
+    await this.askGeometry(wanted);
+    const flight = this.flight.peek();
+    if (wanted !== this.wanted || flight === null || this.flying.peek()) return;
+    const age_ms = performance.now() - flight.at_ms;
+    const old_ms = Math.max(kFlightOld_ms, kLeastRest * flight.preview.computed_ms);
+    if (age_ms > old_ms && this.geometry.peek()?.preview.ok === true) await this.fly(wanted);
   }
 
   /** Asks for nothing any more. */
