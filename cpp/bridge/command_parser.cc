@@ -103,7 +103,7 @@ link_command_t ParseLinkCommand(const nlohmann::json& body, bus::Utime now) {
                               "start_in_s", "duration_s"});
   link_command_t command{};
   command.vehicle_id = Integer(object, "vehicle_id", kId);
-  command.mode = Choice(object.At("mode"), {"up", "silent", "frozen"});
+  command.mode = Choice(object.At("mode"), {"up", "silent", "frozen", "restored"});
   command.uplink = object.Boolean("uplink", true);
   command.downlink = object.Boolean("downlink", true);
   if (!command.uplink && !command.downlink)

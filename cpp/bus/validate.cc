@@ -256,7 +256,7 @@ bool Valid(const heartbeat_t& heartbeat) {
 }
 
 bool Valid(const link_command_t& command) {
-  return ValidRequest(command) && OneOf(command.mode, link_command_t::MODE_FROZEN) &&
+  return ValidRequest(command) && OneOf(command.mode, link_command_t::MODE_RESTORED) &&
          Numbers({command.delay_s, command.jitter_s, command.loss, command.duration_s}) &&
          Time(command.start_utime);
 }

@@ -142,7 +142,7 @@ void CutLink(Station& station, const LinkOptions& options, std::ostream& out) {
 }
 
 void RestoreLink(Station& station, const LinkOptions& options, std::ostream& out) {
-  SetLinks(station, options, link_command_t::MODE_UP, "restored", out);
+  SetLinks(station, options, link_command_t::MODE_RESTORED, "restored", out);
 }
 
 void SwitchPayload(Station& station, const std::vector<std::string>& vehicles, bool on, std::ostream& out) {

@@ -7,7 +7,9 @@
 namespace skein::simulator {
 namespace {
 
-LinkSetting Changed(const LinkSetting& before, const LinkChange::Direction& change) {
+LinkSetting Changed(const LinkSetting& before, const LinkSetting& at_start,
+                    const LinkChange::Direction& change) {
+  if (change.as_at_start) return at_start;
   return {change.mode.value_or(before.mode), change.quality.value_or(before.quality)};
 }
 
@@ -71,7 +73,7 @@ LinkChange ToLinkChange(const config::TimelineEntry& entry) {
     change.duration_s = cut->for_s.value_or(0);
   } else if (const auto* restore = std::get_if<config::RestoreLink>(&entry.action)) {
     change.vehicle_id = restore->vehicle_id;
-    change.uplink = change.downlink = Direction{LinkMode::kUp, std::nullopt};
+    change.uplink = change.downlink = Direction{std::nullopt, std::nullopt, true};
   } else {
     const auto& set = std::get<config::SetLink>(entry.action);
     change.vehicle_id = set.vehicle_id;
@@ -83,7 +85,10 @@ LinkChange ToLinkChange(const config::TimelineEntry& entry) {
 
 LinkSchedule::LinkSchedule(std::vector<SimulatedVehicle>& fleet, Tell tell)
     : fleet_(fleet), tell_(std::move(tell)), last_changes_(fleet.size()) {
-  for (std::size_t i = 0; i < fleet.size(); ++i) index_[fleet[i].id()] = i;
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    index_[fleet[i].id()] = i;
+    at_start_.push_back({fleet[i].uplink(), fleet[i].downlink()});
+  }
 }
 
 bool LinkSchedule::Add(const LinkChange& change, bus::Utime now, bus::Utime when) {
@@ -123,8 +128,8 @@ void LinkSchedule::Make(std::size_t index, const LinkChange& change, bus::Utime 
   const SimulatedVehicle& vehicle = fleet_[index];
   const Settings before{vehicle.uplink(), vehicle.downlink()};
   Settings after;
-  if (change.uplink) after.uplink = Changed(*before.uplink, *change.uplink);
-  if (change.downlink) after.downlink = Changed(*before.downlink, *change.downlink);
+  if (change.uplink) after.uplink = Changed(*before.uplink, at_start_[index].uplink, *change.uplink);
+  if (change.downlink) after.downlink = Changed(*before.downlink, at_start_[index].downlink, *change.downlink);
   Set(index, after);
   if (change.duration_s > 0) {
     // A direction that this change left alone, or that another one changes meanwhile, is not set back.

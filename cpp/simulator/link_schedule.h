@@ -18,6 +18,7 @@ struct LinkChange {
   struct Direction {
     std::optional<LinkMode> mode;
     std::optional<config::LinkQuality> quality;
+    bool as_at_start = false;  ///< mode and quality are those that it began with; the others don't count
   };
   int vehicle_id = 0;
   std::optional<Direction> uplink;
@@ -51,6 +52,11 @@ class LinkSchedule {
     std::optional<LinkSetting> uplink;
     std::optional<LinkSetting> downlink;
   };
+  /// As a UAV's link was when this was made.
+  struct AtStart {
+    LinkSetting uplink;
+    LinkSetting downlink;
+  };
   /// The number of the last change to each direction.
   struct LastChange {
     std::int64_t uplink = 0;
@@ -64,6 +70,7 @@ class LinkSchedule {
   std::vector<SimulatedVehicle>& fleet_;
   Tell tell_;
   std::map<int, std::size_t> index_;
+  std::vector<AtStart> at_start_;         ///< as fleet_
   std::vector<LastChange> last_changes_;  ///< as fleet_
   std::int64_t changes_ = 0;
   std::multimap<bus::Utime, std::function<void(bus::Utime now)>> due_;

@@ -56,6 +56,9 @@ LinkChange ToLinkChange(const link_command_t& command) {
     case link_command_t::MODE_FROZEN:
       direction.mode = LinkMode::kFrozen;
       break;
+    case link_command_t::MODE_RESTORED:
+      direction.as_at_start = true;
+      break;
     default:
       direction.mode = LinkMode::kUp;
       direction.quality = config::LinkQuality{command.delay_s, command.jitter_s, command.loss};

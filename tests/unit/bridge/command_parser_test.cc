@@ -36,6 +36,11 @@ TEST(LinkCommand, TakesDefaultsForWhatIsMissing) {
   EXPECT_EQ(command.loss, 0);
 }
 
+TEST(LinkCommand, RestoresALink) {
+  const auto command = ParseLinkCommand(json::parse(R"({"vehicle_id": 3, "mode": "restored"})"), 1000);
+  EXPECT_EQ(command.mode, link_command_t::MODE_RESTORED);
+}
+
 TEST(LinkCommand, TakesEveryField) {
   const auto command = ParseLinkCommand(json::parse(R"({"vehicle_id": 3, "mode": "frozen", "uplink": false,
       "downlink": true, "delay_s": 0.5, "jitter_s": 0.25, "loss": 0.125, "start_in_s": 2, "duration_s": 35})"),

@@ -151,7 +151,7 @@ TEST_F(LinkTest, RestoresAtATimeOfTheScenario) {
   StartFleet();
   Skein({"link", "restore", "3", "--at", "235.5"});
   ASSERT_EQ(got_.size(), 1U);
-  EXPECT_EQ(got_[0].mode, link_command_t::MODE_UP);
+  EXPECT_EQ(got_[0].mode, link_command_t::MODE_RESTORED);
   EXPECT_EQ(got_[0].start_utime, kStart + 235'500'000);
 }
 

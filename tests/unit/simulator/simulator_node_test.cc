@@ -331,6 +331,36 @@ TEST_F(SimulatorTest, ACutThatIsUndoneByHandDoesNotEndAgainLater) {
   EXPECT_EQ(events_.size(), 3u);
 }
 
+TEST_F(SimulatorTest, RestoringBringsBackTheQualityThatTheScenarioBeganWith) {
+  config::Scenario scenario = ScenarioOf(1);
+  scenario.vehicles[0].uplink.delay_s = 0.3;
+  scenario.vehicles[0].downlink.loss = 0.2;
+  scenario.timeline = {{5.0, config::RestoreLink{.vehicle_id = 1}}};
+  Start(scenario);
+  RunUntil(1);
+  const auto expect_as_at_start = [this] {
+    EXPECT_EQ(node_->fleet()[0].uplink().mode, LinkMode::kUp);
+    EXPECT_EQ(node_->fleet()[0].uplink().quality.delay_s, 0.3);
+    EXPECT_EQ(node_->fleet()[0].downlink().quality.loss, 0.2);
+  };
+  link_command_t command = Cut(1);
+  command.mode = link_command_t::MODE_UP;  // with no delay and no loss
+  Request(channel::kCmdLink, command);
+  Request(channel::kCmdLink, Cut(1));
+  RunUntil(2);
+  EXPECT_EQ(node_->fleet()[0].downlink().quality.loss, 0);
+  command = Cut(1);
+  command.mode = link_command_t::MODE_RESTORED;
+  EXPECT_TRUE(Request(channel::kCmdLink, command).accepted);
+  RunUntil(3);
+  expect_as_at_start();
+  command = Cut(1);
+  command.mode = link_command_t::MODE_UP;
+  Request(channel::kCmdLink, command);
+  RunUntil(6);
+  expect_as_at_start();
+}
+
 TEST_F(SimulatorTest, CutsOneDirectionAlone) {
   Start(ScenarioOf(1));
   RunUntil(1);
