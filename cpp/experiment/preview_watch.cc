@@ -87,9 +87,11 @@ void SlotWatch::Add(const Tick& tick, double t_s) {
   const auto formation = tick.formations.find(formation_id_);
   bool in = false;
   if (formation != tick.formations.end()) {
-    for (const slot_status_t& slot : formation->second.slots) {
+    const formation_status_t& status = formation->second;
+    const bool climbs = std::abs(status.avoidance_target_m - status.avoidance_up_m) > Settling::kPositionM;
+    for (const slot_status_t& slot : status.slots) {
       if (!slot.flown) continue;
-      in = InSlot(slot);
+      in = !climbs && InSlot(slot);
       if (!in) break;
     }
   }

@@ -61,7 +61,8 @@ class CylinderWatch {
   std::vector<CylinderApproach> approaches_;
 };
 
-/// Since when all UAVs of a formation that are flown have been in their slots, within Settling::kPositionM.
+/// Since when all UAVs of a formation that are flown have been in their slots, within Settling::kPositionM,
+/// and the formation at the altitude that it wants.
 class SlotWatch {
  public:
   explicit SlotWatch(int formation_id) : formation_id_(formation_id) {}

@@ -14,6 +14,7 @@
 #include "bus/conversions.h"
 #include "bus/simulated_executor.h"
 #include "bus/transport.h"
+#include "controller/formation_message.h"
 #include "controller/state_file.h"
 #include "core/frames.h"
 
@@ -212,6 +213,42 @@ TEST_F(ControllerNodeTest, RefusesFormationsThatCannotBe) {
             std::string::npos);
   EXPECT_NE(refused([](formation_t& f) { f.slots.clear(), f.num_slots = 0; }).find("slot"),
             std::string::npos);
+}
+
+TEST_F(ControllerNodeTest, TakesSlotsInsideOneAnothersCylinderButSaysSo) {
+  Start();
+  SendRoster();
+  Fly(30);
+  formation_command_t command = Command(formation_command_t::ACTION_APPLY);
+  EXPECT_EQ(Ask(command).reason, "");
+  command = Command(formation_command_t::ACTION_APPLY);
+  command.formation.slots[2] = command.formation.slots[1];
+  command.formation.slots[2].vehicle_id = 3;
+  command.formation.slots[2].left_m -= 100;
+  command.formation.slots[2].up_m += 30;
+  const ack_t ack = Ask(command);
+  EXPECT_TRUE(ack.accepted);
+  EXPECT_EQ(ack.reason,
+            "the slots of UAV2 and UAV3 are 100 m apart and 30 m in height: inside one another's cylinder");
+  EXPECT_EQ(codes_.back(), "formation_applied");
+}
+
+TEST_F(ControllerNodeTest, GoesOnFromAStateThatItIsGiven) {
+  Start();
+  SendRoster();
+  Fly(40);
+  const FormationFlight& flight = node_->flights().at(1);
+  ControllerState state{start_utime_, {}};
+  state.formations.push_back({FormationMessage(flight, executor_.Now()), PathMessage(flight, executor_.Now()),
+                              flight.Status(tick_), std::nullopt, 0});
+  const double arc = flight.leader().arc_m();
+  node_.reset();
+  options_.scenario->formations.clear();
+  options_.state = state;
+  Start();
+  SendRoster();
+  ASSERT_TRUE(node_->flights().contains(1));
+  EXPECT_EQ(node_->flights().at(1).leader().arc_m(), arc);
 }
 
 TEST_F(ControllerNodeTest, StartsANewFormationWhereItsUavsFly) {

@@ -222,6 +222,44 @@ TEST(PlanWaypoints, RefusesWithTheNumberAndWhatWouldHelp) {
   has(loop.reason, "the formation with its clearance 40,300 m");
 }
 
+TEST(PlanWaypoints, TellsAllThatIsWrongAtOnceAndWhere) {
+  const auto problems = [](const std::vector<Waypoint>& waypoints) {
+    const PathResult result = PlanWaypoints(waypoints, false, TurnLimits());
+    EXPECT_FALSE(result.path);
+    EXPECT_FALSE(result.problems.empty());
+    EXPECT_EQ(result.reason, result.problems.front().text);
+    std::vector<std::pair<size_t, bool>> places;
+    for (const PathProblem& problem : result.problems) places.emplace_back(problem.waypoint, problem.on_leg);
+    return places;
+  };
+  using Places = std::vector<std::pair<size_t, bool>>;
+  EXPECT_EQ(problems({{0, 0, 1000, 20}, {9000, 0, 1000, 50}, {9000, 9000, 1000, 95}}),
+            (Places{{0, false}, {2, false}}));
+  EXPECT_EQ(
+      problems(
+          {{0, 0, 1000, 50}, {9000, 0, 1000, 50, 500}, {9000, 9000, 1000, 50, 600}, {0, 9000, 1000, 50}}),
+      (Places{{1, false}, {2, false}}));
+  EXPECT_EQ(problems({{0, 0, 1000, 50}, {3000, 0, 2000, 50}, {6000, 0, 3000, 50}, {15000, 0, 3000, 50}}),
+            (Places{{0, true}, {1, true}}));
+}
+
+TEST(PlanWaypoints, TellsWhereItGoesByEachWaypoint) {
+  const std::vector<Waypoint> waypoints{
+      {0, 0, 1000, 50}, {12000, 0, 1000, 50}, {12000, 12000, 1000, 50}, {0, 12000, 1000, 50}};
+  for (const bool closed : {false, true}) {
+    const PathResult result = PlanWaypoints(waypoints, closed, TurnLimits());
+    ASSERT_TRUE(result.path) << result.reason;
+    ASSERT_EQ(result.waypoint_arcs_m.size(), waypoints.size());
+    for (size_t i = 0; i < waypoints.size(); ++i) {
+      // Nowhere else on the path is nearer.
+      const Eigen::Vector2d waypoint(waypoints[i].east_m, waypoints[i].north_m);
+      const auto distance = [&](double arc_m) { return (result.path->At(arc_m).position - waypoint).norm(); };
+      const double here = distance(result.waypoint_arcs_m[i]);
+      for (double arc = 0; arc < result.path->end_arc_m(); arc += 20) EXPECT_GE(distance(arc), here - 0.01);
+    }
+  }
+}
+
 TEST(PlanWaypoints, RandomListsAreFlownWithinTheLimitsOrRefusedWithAReason) {
   const unsigned seed = 20201;
   std::mt19937 random(seed);
