@@ -28,6 +28,14 @@ void CheckTexts(const Message& message) {
   }
 }
 
+/// An answer with all fields, as when the controller refuses.
+Json Refusal(const PreviewRequest& request, const std::string& why) {
+  experiment::PathPreview refused;
+  refused.flight.reason = why;
+  const auto* path = std::get_if<PathPreviewRequest>(&request);
+  return path ? ToJson(refused, false, path->geometry_only) : ToJson(refused.flight);
+}
+
 std::string Answer(const PreviewRequest& request, const experiment::FlightPicture& picture,
                    const std::function<bool()>& stop) {
   const auto start = Clock::now();
@@ -44,7 +52,7 @@ std::string Answer(const PreviewRequest& request, const experiment::FlightPictur
     }
   } catch (const std::exception& error) {
     // A picture that no flight can be made of: a model that makes no sense, a path that is none.
-    json = {{"ok", false}, {"reason", error.what()}};
+    json = Refusal(request, error.what());
   }
   json["utime"] = picture.utime;
   json["computed_ms"] = std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - start).count();
