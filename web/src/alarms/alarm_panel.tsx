@@ -5,6 +5,7 @@ import type { PanelProps } from "../shell/panel_list";
 import type { Station } from "../shell/station";
 import { acknowledgeAll, groupsOf, wantsAcknowledgement } from "./alarm_list";
 import { AlarmRow } from "./alarm_row";
+import { sendAlarm } from "./send";
 import { whyNoAlarms } from "./service";
 
 /** What must be looked after, what is shelved, and what is over. */
@@ -27,7 +28,7 @@ export function AlarmPanel({ station }: PanelProps) {
             class="button acknowledge-all"
             label="Acknowledge all that is listed (Shift+A)"
             disabled={unacknowledged === 0}
-            command={() => commands.request("CMD_ALARM", acknowledgeAll(list))}
+            command={() => sendAlarm(commands, acknowledgeAll(list))}
           >
             Acknowledge all
           </CommandButton>

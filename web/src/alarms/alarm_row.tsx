@@ -16,6 +16,7 @@ import {
   unshelve,
   wantsAcknowledgement,
 } from "./alarm_list";
+import { sendAlarm } from "./send";
 
 interface AlarmRowProps {
   station: Station;
@@ -35,7 +36,7 @@ export function AlarmRow({ station, list, alarm }: AlarmRowProps) {
   const { store, commands } = station;
   const flashes = wantsAcknowledgement(alarm);
   const start_utime = store.roster.value?.start_utime ?? 0;
-  const send = (body: ReturnType<typeof acknowledge>) => () => commands.request("CMD_ALARM", body);
+  const send = (body: ReturnType<typeof acknowledge>) => () => sendAlarm(commands, body);
   const press = (event: KeyboardEvent) => {
     // On the row itself; its buttons have their own Enter.
     if (event.key !== "Enter" || event.target !== event.currentTarget) return;
