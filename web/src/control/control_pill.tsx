@@ -34,7 +34,7 @@ export function ControlPill({ station }: PanelProps) {
   return (
     <Popover
       label={`${who}. Control…`}
-      class={`control-pill ${you_hold ? "yours" : holder === null ? "free" : "others"}`}
+      class={`control-pill ${you_hold ? "yours" : holder === null ? "nobodys" : "others"}`}
       button={
         <>
           <svg viewBox="0 0 16 16" aria-hidden="true">

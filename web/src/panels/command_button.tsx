@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { why_no_command } from "../control/control";
 import type { Outcome } from "../link/commands";
 
@@ -81,8 +81,12 @@ interface RefusalProps {
   dismiss: () => void;
 }
 
-/** Fixed on the screen beside its control: no table or panel cuts it off. */
+/** Beside its control, in the top layer: no table or panel cuts it off or covers it. */
 function Refusal({ text, anchor, dismiss }: RefusalProps) {
+  const note = useRef<HTMLDivElement>(null);
+  useLayoutEffect(() => {
+    note.current?.showPopover();
+  }, []);
   const dismissed = useRef(dismiss);
   dismissed.current = dismiss;
   useEffect(() => {
@@ -99,7 +103,7 @@ function Refusal({ text, anchor, dismiss }: RefusalProps) {
     bottom: `${window.innerHeight - (box?.top ?? 0) + 8}px`,
   };
   return (
-    <div class="refusal" role="alert" style={place}>
+    <div class="refusal" role="alert" popover="manual" ref={note} style={place}>
       <span>{text}</span>
       <button type="button" class="button quiet" aria-label="Dismiss" onClick={dismiss}>
         ✕

@@ -145,7 +145,7 @@ function Field({ label, children }: { label: string; children: ComponentChildren
   return (
     <div class="choice">
       <span aria-hidden="true">{label}</span>
-      <span class="field">{children}</span>
+      <span class="with-unit">{children}</span>
     </div>
   );
 }
