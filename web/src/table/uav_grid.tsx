@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { RefObject } from "preact";
-import { useRef } from "preact/hooks";
+import { useCallback, useRef } from "preact/hooks";
 import type { Vehicle } from "../link/messages";
 import type { Station } from "../shell/station";
 import type { Column } from "./columns";
@@ -42,13 +42,19 @@ export function UavGrid({ station, scroller, columns, ids, vehicles, order, setO
     active_id.value = id;
     rows.reveal(to);
   };
-  const press = (event: MouseEvent, id: number) => {
+  const pressed = (event: MouseEvent, id: number) => {
     if (event.target instanceof Element && event.target.closest("button") !== null) return;
     const keys = { shift: event.shiftKey, ctrl: event.ctrlKey || event.metaKey };
     clickRow(store, ids, id, anchor.current, keys);
     if (!keys.shift) anchor.current = id;
     active_id.value = id;
   };
+  // Always the same function: a row that stays in view while the table is scrolled isn't drawn again.
+  const newest_pressed = useRef(pressed);
+  newest_pressed.current = pressed;
+  const press = useCallback((event: MouseEvent, id: number) => {
+    newest_pressed.current(event, id);
+  }, []);
   const onKey = (event: KeyboardEvent) => {
     if (event.target !== event.currentTarget) return;
     const at = active === null ? -1 : ids.indexOf(active);
