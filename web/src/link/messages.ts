@@ -9,7 +9,20 @@ export interface Hello {
   utime: number;
   tile_url: string | null;
   tile_attribution: string;
+  /** The map that the bridge serves; null without one. */
+  tiles: LocalTiles | null;
 }
+
+export type LocalTiles =
+  | {
+      kind: "raster";
+      url: string;
+      name: string;
+      min_zoom: number;
+      max_zoom: number;
+      attribution: string;
+    }
+  | { kind: "pmtiles"; url: string; name: string };
 
 export interface Origin {
   latitude_deg: number;

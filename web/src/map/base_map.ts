@@ -1,10 +1,9 @@
-/** What lies under everything: land and borders that are always there, and the operator's tiles when some are set. */
+/** What lies under everything, the operator's tiles too: land and borders that are always there. */
 import L from "leaflet";
 import type { FeatureCollection } from "geojson";
 import { feature, mesh } from "topojson-client";
 import type { GeometryCollection, Topology } from "topojson-specification";
 import atlas_url from "world-atlas/countries-50m.json?url";
-import type { Hello } from "../link/messages";
 import { flatLand, flatLines } from "./antimeridian";
 import type { Colours } from "./colours";
 
@@ -47,10 +46,4 @@ export class Land {
     this.land.setStyle({ color: colours.map_line, weight: 1, fillColor: colours.map_land, fillOpacity: 1 });
     this.borders.setStyle({ color: colours.map_line, weight: 1, fill: false });
   }
-}
-
-/** The tile layer that the bridge was told of; null without one. */
-export function tileLayer(hello: Hello | null): L.TileLayer | null {
-  if (hello === null || hello.tile_url === null) return null;
-  return L.tileLayer(hello.tile_url, { attribution: hello.tile_attribution, maxZoom: 19 });
 }

@@ -35,24 +35,45 @@ export class Camera {
     return true;
   }
 
-  /** Moves the map so that the fleet's middle stays in the middle. */
+  /** Moves the map so that the middle of the selected UAVs, or of the whole fleet, stays in the middle. */
   follow(frame: LocalFrame, now_ms: number): void {
-    const bounds = this.fleetBounds(frame, now_ms);
+    const selection = this.store.selection.peek();
+    const bounds = this.fleetBounds(frame, now_ms, selection.size > 0 ? selection : undefined);
+    if (bounds.isValid()) this.centre(bounds.getCenter());
+  }
+
+  /** Brings a UAV into sight, if it is not. */
+  show(frame: LocalFrame, id: number, now_ms: number): void {
+    const bounds = this.fleetBounds(frame, now_ms, new Set([id]));
     if (!bounds.isValid()) return;
-    const whole = this.map.getContainer().getBoundingClientRect();
-    const free = this.freeArea();
     const at = this.map.latLngToContainerPoint(bounds.getCenter());
-    const step = at.subtract([
-      (free.left + free.right) / 2 - whole.left,
-      (free.top + free.bottom) / 2 - whole.top,
-    ]);
+    const whole = this.map.getContainer().getBoundingClientRect();
+    const { left, right, top, bottom } = this.freeArea();
+    const [x, y] = [at.x + whole.left, at.y + whole.top];
+    if (x < left || x > right || y < top || y > bottom) this.centre(bounds.getCenter());
+  }
+
+  /** Where the middle of the part is that no panel covers. */
+  middle(): L.LatLng {
+    return this.map.containerPointToLatLng(this.freeMiddle());
+  }
+
+  private centre(place: L.LatLng): void {
+    const step = this.map.latLngToContainerPoint(place).subtract(this.freeMiddle());
     if (Math.hypot(step.x, step.y) >= kLeastStep_px) this.map.panBy(step.round(), { animate: false });
   }
 
-  private fleetBounds(frame: LocalFrame, now_ms: number): L.LatLngBounds {
+  private freeMiddle(): L.Point {
+    const whole = this.map.getContainer().getBoundingClientRect();
+    const free = this.freeArea();
+    return L.point((free.left + free.right) / 2 - whole.left, (free.top + free.bottom) / 2 - whole.top);
+  }
+
+  private fleetBounds(frame: LocalFrame, now_ms: number, of?: ReadonlySet<number>): L.LatLngBounds {
     const bounds = L.latLngBounds([]);
     const { fleet } = this.store;
     for (let row = 0; row < (fleet.motion?.count ?? 0); row += 1) {
+      if (of !== undefined && !of.has(fleet.motion?.id[row] ?? 0)) continue;
       const place = fleet.placeAt(row, now_ms);
       bounds.extend(toLatLng(frame, place.east_m, place.north_m));
     }

@@ -3,8 +3,8 @@ import type { Map as LeafletMap } from "leaflet";
 import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
-import { altitude, distance } from "../units/quantities";
 import { identityOf, type Colours } from "./colours";
+import { drawCylinders } from "./cylinders";
 import { FleetLabels, type LeaderSight, type WaypointSight } from "./fleet_labels";
 import { layers, trails_of } from "./layers";
 import { detailOf, type Detail } from "./looks";
@@ -19,13 +19,8 @@ import type { Trails } from "./trails";
 import { pixelOf, pixelsPerMetre, type Pixel, type View } from "./view";
 
 const kVector_s = 30;
-/** A finger hits what is this near; the nearest counts [px]. */
-const kPick_px = 24;
 /** Waypoints say altitude and speed from this scale on. */
 const kWaypointText_px_per_m = 0.03;
-const kNoteFont = "550 11px 'Inter Variable', sans-serif";
-/** Cylinders of more UAVs than this hide the map. */
-const kMostCylinders = 50;
 
 /** What is remade when colours or the screen's resolution change. */
 interface Looks {
@@ -65,12 +60,12 @@ export class FleetLayer {
     this.overlay.align(view);
   }
 
-  /** The UAV under a point of the map, null: there is none. */
-  pick(point: Pixel): number | null {
+  /** The UAV nearest to a point of the map, null: none is within reach. */
+  pick(point: Pixel, reach_px: number): number | null {
     let nearest: { id: number; distance: number } | null = null;
     for (const sight of this.sights.visible) {
       const distance = Math.hypot(sight.x - point.x, sight.y - point.y);
-      if (distance <= kPick_px && (nearest === null || distance < nearest.distance))
+      if (distance <= reach_px && (nearest === null || distance < nearest.distance))
         nearest = { id: sight.id, distance };
     }
     return nearest?.id ?? null;
@@ -96,7 +91,8 @@ export class FleetLayer {
     const detail = detailOf(visible.length, view.width_px, view.height_px);
     const scene = { ...this.looksFor(colours), context, view, frame, now_ms, detail };
     const leaders = this.drawFormations(scene);
-    if (layers.cylinders.shown.peek()) this.drawCylinders(scene);
+    if (layers.cylinders.shown.peek())
+      drawCylinders(context, view, frame, visible, this.store, colours, scene.texts);
     if (layers.vectors.shown.peek() && detail !== "dots") this.drawVectors(scene);
     const pairs = pairsOf(this.sights);
     if (layers.approaches.shown.peek() && detail !== "dots")
@@ -197,39 +193,6 @@ export class FleetLayer {
       formation_id: status.formation_id,
       course_rad: status.leader_course_rad,
     };
-  }
-
-  /** The cylinder that nobody else of the formation may enter: R around it, H above and below. */
-  private drawCylinders({ context, view, frame, colours, texts }: Scene): void {
-    const selected = this.sights.visible.filter((sight) => sight.selected).slice(0, kMostCylinders);
-    for (const sight of selected) {
-      const formation = this.store.formations.peek().get(sight.formation_id);
-      if (formation === undefined) continue;
-      const radius_px = formation.radius_m * pixelsPerMetre(view, frame.origin.latitude_deg);
-      context.strokeStyle = colours.text;
-      context.lineWidth = 1.5;
-      context.beginPath();
-      context.arc(sight.x, sight.y, radius_px, 0, 2 * Math.PI);
-      context.stroke();
-      if (sight.id !== this.store.selected_id.peek()) continue;
-      const text = `R ${distance.full(formation.radius_m)}, H ${altitude.full(formation.height_m)}`;
-      const image = texts.get(text, () => ({
-        lines: [{ text, font: kNoteFont, colour: colours.text }],
-        width: texts.width(text, kNoteFont) + 8,
-        height: 18,
-        background: colours.tag,
-        padding_px: 3,
-        line_px: 14,
-      }));
-      const y = sight.y + Math.max(radius_px, kSymbolRadius_px) + 3;
-      context.drawImage(
-        image.image,
-        Math.round(sight.x - image.width / 2),
-        Math.round(y),
-        image.width,
-        image.height,
-      );
-    }
   }
 
   /** Where each will be in half a minute, should it fly straight on, and the last piece of its trail. */

@@ -4,14 +4,20 @@ import { effect, signal } from "@preact/signals";
 import type { Store } from "../state/store";
 import { theme } from "../state/settings";
 import { localFrame, type LocalFrame } from "../units/geodesy";
-import { Land, tileLayer } from "./base_map";
+import { Land } from "./base_map";
+import { BoxSelect } from "./box_select";
 import { Camera } from "./camera";
 import { readColours, type Colours } from "./colours";
 import { FleetLayer } from "./fleet_layer";
 import { localGridStep_m } from "./grid";
+import { base_map, layers, trail_min, trails_of } from "./layers";
 import { GroundLayer } from "./ground_layer";
 import type { EnuPoint, MapAccess, MapTool } from "./map_access";
+import { leafletMap } from "./leaflet_map";
+import { MeasureTool } from "./measure_tool";
+import { showBase } from "./base_layer";
 import { Trails } from "./trails";
+import { neighbourOf } from "./neighbour";
 import { pixelsPerMetre, viewOf, type View } from "./view";
 
 const kGroundInterval_ms = 500;
@@ -24,6 +30,9 @@ const kFleetInterval_ms = 30;
 const kIdlePart = 0.5;
 const kLongestFleetInterval_ms = 200;
 const kWaitForSlots_ms = 1500;
+/** A UAV is hit when its middle is this near; the nearest counts. */
+const kMouse_px = 22;
+const kFinger_px = 36;
 
 /** What the scale shows. */
 export interface MapScale {
@@ -35,7 +44,11 @@ export interface MapScale {
 export class FleetMap implements MapAccess {
   readonly following = signal(false);
   readonly scale = signal<MapScale | null>(null);
+  /** What is wrong with the base map that was chosen, for people; "": nothing. */
+  readonly base_problem = signal("");
   readonly leaflet: L.Map;
+  readonly measure: MeasureTool;
+  readonly box: BoxSelect;
   private readonly trails = new Trails();
   private readonly land: Land;
   private readonly ground: GroundLayer;
@@ -63,24 +76,19 @@ export class FleetMap implements MapAccess {
     private readonly store: Store,
     readonly freeArea: () => DOMRect,
   ) {
-    this.leaflet = L.map(container, {
-      center: [25, 20],
-      zoom: 2.5,
-      minZoom: 2,
-      maxZoom: 19,
-      zoomSnap: 0.25,
-      zoomDelta: 0.5,
-      wheelPxPerZoomLevel: 120,
-      // The canvases are drawn for one zoom at a time.
-      zoomAnimation: false,
-      zoomControl: false,
-      preferCanvas: true,
-    });
-    this.leaflet.attributionControl.setPrefix('<a href="https://leafletjs.com">Leaflet</a>');
+    this.leaflet = leafletMap(container);
     this.land = new Land(this.leaflet);
     this.ground = new GroundLayer(this.leaflet, store, this.trails);
     this.fleet = new FleetLayer(this.leaflet, store, this.trails);
     this.camera = new Camera(this.leaflet, store, freeArea);
+    this.measure = new MeasureTool(this, () => this.middle());
+    this.box = new BoxSelect(
+      this,
+      () => this.tool !== null,
+      (a, b) => {
+        store.select([...store.selection.peek(), ...this.fleet.within(a, b)]);
+      },
+    );
     this.listen(container);
     // A map without land is still a map: grid, fleet and tiles don't need it.
     this.land.load().catch(() => undefined);
@@ -90,6 +98,8 @@ export class FleetMap implements MapAccess {
   remove(): void {
     cancelAnimationFrame(this.animation);
     for (const step of this.undo) step();
+    this.measure.remove();
+    this.box.remove();
     this.ground.remove();
     this.fleet.remove();
     this.leaflet.remove();
@@ -118,8 +128,40 @@ export class FleetMap implements MapAccess {
     return this.local?.toEnu(at.lat, at.lng, this.local.origin.altitude_m) ?? null;
   }
 
+  /** The middle of what is seen of the map. */
+  middle(): L.LatLng {
+    return this.camera.middle();
+  }
+
+  pan(x_px: number, y_px: number): void {
+    this.following.value = false;
+    this.leaflet.panBy([x_px, y_px], { animate: false });
+  }
+
+  /** Selects the next UAV of the roster, or the one before it, and brings it into sight. */
+  selectNext(step: 1 | -1): void {
+    const ids = this.store.roster.peek()?.vehicles.map((vehicle) => vehicle.id) ?? [];
+    const id = neighbourOf(ids, this.store.selected_id.peek(), step);
+    if (id === null) return;
+    this.store.select([id]);
+    if (this.local !== null) this.camera.show(this.local, id, performance.now());
+  }
+
+  /** Ends the tool that has the map; without one, nothing is selected any more. */
+  leave(): void {
+    if (this.tool === null) this.store.select([]);
+    else this.dropTool();
+  }
+
+  private dropTool(): void {
+    const tool = this.tool;
+    this.tool = null;
+    this.leaflet.getContainer().style.cursor = "";
+    tool?.onLost();
+  }
+
   claim(tool: MapTool): () => void {
-    this.tool?.onLost();
+    this.dropTool();
     this.tool = tool;
     this.leaflet.getContainer().style.cursor = tool.cursor;
     return () => {
@@ -142,7 +184,8 @@ export class FleetMap implements MapAccess {
     });
     this.leaflet.on("click", (event) => {
       if (this.tool !== null) return;
-      const id = this.fleet.pick(event.containerPoint);
+      const touched = (event.originalEvent as Partial<PointerEvent>).pointerType === "touch";
+      const id = this.fleet.pick(event.containerPoint, touched ? kFinger_px : kMouse_px);
       const { ctrlKey, metaKey, shiftKey } = event.originalEvent;
       if (id !== null && (ctrlKey || metaKey || shiftKey)) this.store.toggleSelected(id);
       else this.store.select(id === null ? [] : [id]);
@@ -161,10 +204,12 @@ export class FleetMap implements MapAccess {
         this.land.paint(this.colours);
         this.ground_old = true;
       }),
+      effect(() => showBase(this.leaflet, this.store.hello.value, base_map.value, this.base_problem)),
       effect(() => {
-        const tiles = tileLayer(this.store.hello.value);
-        tiles?.addTo(this.leaflet);
-        return () => tiles?.remove();
+        // Whatever of these changes, the ground is to be drawn again.
+        for (const { shown } of Object.values(layers)) void shown.value;
+        void [trails_of.value, trail_min.value, this.store.selection.value];
+        this.ground_old = true;
       }),
     );
   }

@@ -16,7 +16,12 @@ export function fixedOrNone(value: number, decimals = 0): string {
 
 /** Course as compass degrees, three digits: 000 is north, 090 east. */
 export function compass(course_rad: number): string {
-  const degrees = Math.round(90 - (course_rad * 180) / Math.PI);
+  return compassOf(Math.PI / 2 - course_rad);
+}
+
+/** A compass direction, clockwise from north, as three digits. */
+export function compassOf(bearing_rad: number): string {
+  const degrees = Math.round((bearing_rad * 180) / Math.PI);
   return String(((degrees % 360) + 360) % 360).padStart(3, "0");
 }
 

@@ -39,6 +39,15 @@ export const distance = quantity(
   () => kLengths[distance_unit.value],
 );
 
+const kMile_m = 1852;
+
+/** A distance that may be long: in kilometres or nautical miles from 10 km or a mile on. */
+export function farDistance(metres: number): string {
+  if (distance_unit.value === "m")
+    return metres < 10_000 ? distance.full(metres) : `${fixed(metres / 1000, 1)} km`;
+  return metres < kMile_m ? distance.full(metres) : `${fixed(metres / kMile_m, 1)} NM`;
+}
+
 /** Altitudes above the local origin ("ENU") and vertical distances. */
 export const altitude = quantity(
   () => altitude_unit.value,

@@ -1,0 +1,37 @@
+import type { Signal } from "@preact/signals";
+import type L from "leaflet";
+import type { Hello } from "../link/messages";
+import type { BaseMap } from "./layers";
+import { baseInForce, tileLayerFor } from "./tile_layers";
+
+/** Shows the base map that was chosen, or says in `problem` why it can't; what is returned takes it away. */
+export function showBase(
+  map: L.Map,
+  hello: Hello | null,
+  wanted: BaseMap,
+  problem: Signal<string>,
+): () => void {
+  let gone = false;
+  let shown: L.GridLayer | null = null;
+  problem.value = "";
+  const complain = (why: string) => {
+    if (!gone) problem.value = `The base map can't be shown: ${why}`;
+  };
+  tileLayerFor(hello, baseInForce(hello, wanted)).then(
+    (layer) => {
+      if (gone || layer === null) return;
+      shown = layer;
+      layer.on("tileerror", () => {
+        complain("some of its tiles don't come, or are no images");
+      });
+      layer.addTo(map);
+    },
+    (error: unknown) => {
+      complain(error instanceof Error ? error.message : String(error));
+    },
+  );
+  return () => {
+    gone = true;
+    shown?.remove();
+  };
+}

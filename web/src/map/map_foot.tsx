@@ -1,0 +1,123 @@
+/** Below the map: scale and grid on the left; where the cursor is, and whose map it is, on the right. */
+import { useSignal } from "@preact/signals";
+import type L from "leaflet";
+import { useEffect, useRef } from "preact/hooks";
+import { length } from "../units/format";
+import { enuText, latLonText, mgrsText } from "./coordinates";
+import type { FleetMap } from "./fleet_map";
+import { niceStep } from "./view";
+
+export function MapFoot({ map }: { map: FleetMap }) {
+  const attribution = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    attribution.current?.replaceChildren(map.attribution);
+  }, [map]);
+  return (
+    <>
+      {map.measure.active.value && <MeasureHint map={map} />}
+      <div class="map-foot">
+        <Scale map={map} />
+        <div class="map-foot-right">
+          <Coordinates map={map} />
+          <div ref={attribution} />
+        </div>
+      </div>
+    </>
+  );
+}
+
+/** How to go on; and the middle of the map, where Enter puts the next point. */
+function MeasureHint({ map }: { map: FleetMap }) {
+  return (
+    <div class="measure-hint panel" role="status">
+      <span>Click or tap the points of the line; with the keyboard, Enter adds the middle of the map.</span>
+      <button
+        type="button"
+        class="button"
+        onClick={() => {
+          map.measure.addMiddle();
+        }}
+      >
+        Add middle
+      </button>
+      <button
+        type="button"
+        class="button"
+        onClick={() => {
+          map.measure.takeBack();
+        }}
+      >
+        Take back
+      </button>
+      <button
+        type="button"
+        class="button"
+        title="Escape"
+        onClick={() => {
+          map.measure.toggle();
+        }}
+      >
+        End
+      </button>
+    </div>
+  );
+}
+
+/** Of the cursor; of the middle of the map while no cursor is over it. */
+function Coordinates({ map }: { map: FleetMap }) {
+  const cursor = useSignal<L.LatLng | null>(null);
+  const middle = useSignal<L.LatLng | null>(null);
+  useEffect(() => {
+    const onMove = (event: L.LeafletMouseEvent) => {
+      cursor.value = event.latlng;
+    };
+    const onOut = () => {
+      cursor.value = null;
+    };
+    const onView = () => {
+      middle.value = map.middle();
+    };
+    onView();
+    map.leaflet.on("mousemove", onMove).on("mouseout", onOut).on("moveend zoomend resize", onView);
+    return () => {
+      map.leaflet.off("mousemove", onMove).off("mouseout", onOut).off("moveend zoomend resize", onView);
+    };
+  }, [map, cursor, middle]);
+  const at = cursor.value ?? middle.value;
+  if (at === null) return null;
+  const place = { latitude_deg: at.lat, longitude_deg: at.lng };
+  const of = cursor.value === null ? "Middle" : "Cursor";
+  return (
+    <dl class="coordinates" aria-label={`${of} of the map`}>
+      <dt>{of}</dt>
+      <dd title="WGS-84">{latLonText(place)}</dd>
+      <dt>ENU</dt>
+      <dd title="From the local origin">{enuText(map.enu(at))}</dd>
+      <dt>MGRS</dt>
+      <dd title="Military Grid Reference System, to a metre">{mgrsText(place)}</dd>
+    </dl>
+  );
+}
+
+const kLongestBar_px = 120;
+
+function Scale({ map }: { map: FleetMap }) {
+  const scale = map.scale.value;
+  if (scale === null) return null;
+  // The longest round length that fits: half of the next round one up, or two fifths after a 2.
+  const bar_m = [1, 0.5, 0.4, 0.2]
+    .map((part) => niceStep(kLongestBar_px * scale.metres_per_pixel) * part)
+    .find((metres) => metres <= kLongestBar_px * scale.metres_per_pixel * 1.001);
+  if (bar_m === undefined) return null;
+  return (
+    <div class="scale">
+      <span>
+        {scale.grid_m === null ? "Grid: latitude, longitude" : `Grid ${length(scale.grid_m)}, local ENU`}
+      </span>
+      <svg width={kLongestBar_px} height="8" aria-hidden="true">
+        <path d={`M1 1V7H${(bar_m / scale.metres_per_pixel - 1).toFixed(1)}V1`} />
+      </svg>
+      <span>{length(bar_m)}</span>
+    </div>
+  );
+}

@@ -1,0 +1,99 @@
+/** The operator's own maps as Leaflet layers: tiles by URL, a folder or a PMTiles file that web-bridge serves. */
+import L from "leaflet";
+import { PMTiles, TileType } from "pmtiles";
+import type { Hello } from "../link/messages";
+import type { BaseMap } from "./layers";
+
+const kClosest_zoom = 19;
+
+export interface BaseChoice {
+  base: BaseMap;
+  label: string;
+}
+
+/** What there is to choose from, the offline map first. */
+export function baseChoices(hello: Hello | null): BaseChoice[] {
+  const choices: BaseChoice[] = [{ base: "offline", label: "Offline outlines" }];
+  const tiles = hello?.tiles ?? null;
+  const tile_url = hello?.tile_url ?? null;
+  if (tiles !== null) choices.push({ base: "local", label: tiles.name });
+  if (tile_url !== null) choices.push({ base: "url", label: hostOf(tile_url) });
+  return choices;
+}
+
+/** The choice, or the next best of what there is. */
+export function baseInForce(hello: Hello | null, wanted: BaseMap): BaseMap {
+  const there = baseChoices(hello).map(({ base }) => base);
+  return there.includes(wanted) ? wanted : (there.at(-1) ?? "offline");
+}
+
+function hostOf(url: string): string {
+  return /^https?:\/\/(?:\{s\}\.)?([^/]+)/.exec(url)?.[1] ?? url;
+}
+
+/** The layer for a choice; null for the offline map alone. Throws an Error that says for people what is wrong with a file. */
+export async function tileLayerFor(hello: Hello | null, base: BaseMap): Promise<L.GridLayer | null> {
+  const tile_url = hello?.tile_url ?? null;
+  if (base === "url" && tile_url !== null)
+    return L.tileLayer(tile_url, { attribution: hello?.tile_attribution ?? "", maxZoom: kClosest_zoom });
+  const tiles = hello?.tiles ?? null;
+  if (base !== "local" || tiles === null) return null;
+  if (tiles.kind === "pmtiles") return archiveLayer(tiles.url);
+  return L.tileLayer(tiles.url, {
+    attribution: tiles.attribution,
+    minNativeZoom: tiles.min_zoom,
+    maxNativeZoom: tiles.max_zoom,
+    maxZoom: kClosest_zoom,
+  });
+}
+
+async function archiveLayer(url: string): Promise<L.GridLayer> {
+  const archive = new PMTiles(new URL(url, document.baseURI).href);
+  const header = await archive.getHeader();
+  if (header.tileType === TileType.Mvt)
+    throw new Error("holds vector tiles, which this page doesn't draw: make a PMTiles file of raster tiles");
+  const metadata = (await archive.getMetadata()) as { attribution?: unknown } | null;
+  return new ArchiveLayer(archive, {
+    attribution: typeof metadata?.attribution === "string" ? metadata.attribution : "",
+    minNativeZoom: header.minZoom,
+    maxNativeZoom: header.maxZoom,
+    maxZoom: kClosest_zoom,
+    bounds: [
+      [header.minLat, header.minLon],
+      [header.maxLat, header.maxLon],
+    ],
+  });
+}
+
+/** Tiles drawn from the bytes in a PMTiles file: no request and no address for each. */
+class ArchiveLayer extends L.GridLayer {
+  constructor(
+    private readonly archive: PMTiles,
+    options: L.GridLayerOptions,
+  ) {
+    super(options);
+  }
+
+  override createTile(coords: L.Coords, done: L.DoneCallback): HTMLElement {
+    const tile = document.createElement("canvas");
+    this.draw(tile, coords).then(
+      () => {
+        done(undefined, tile);
+      },
+      (error: unknown) => {
+        done(error instanceof Error ? error : new Error(String(error)), tile);
+      },
+    );
+    return tile;
+  }
+
+  private async draw(tile: HTMLCanvasElement, { x, y, z }: L.Coords): Promise<void> {
+    const found = await this.archive.getZxy(z, x, y);
+    if (found === undefined) return;
+    const image = await createImageBitmap(new Blob([found.data]));
+    tile.width = image.width;
+    tile.height = image.height;
+    tile.getContext("2d")?.drawImage(image, 0, 0);
+    image.close();
+  }
+}
