@@ -1,5 +1,6 @@
 /** Selects UAVs with a box over the map: Shift and drag, or, with the tool, drag alone; it adds to the selection. */
 import { signal } from "@preact/signals";
+import L from "leaflet";
 import type { MapAccess } from "./map_access";
 import type { Pixel } from "./view";
 
@@ -63,6 +64,7 @@ export class BoxSelect {
     const wanted = this.active.peek() || (event.shiftKey && !this.claimed());
     if (!wanted || event.button !== 0 || !event.isPrimary) return;
     this.from = this.pixelOf(event);
+    L.DomUtil.disableTextSelection();
     window.addEventListener("pointermove", this.onMove);
     window.addEventListener("pointerup", this.onUp);
     window.addEventListener("pointercancel", this.onCancel);
@@ -94,6 +96,7 @@ export class BoxSelect {
   };
 
   private endBox(): void {
+    if (this.from !== null) L.DomUtil.enableTextSelection();
     this.from = null;
     this.box.hidden = true;
     window.removeEventListener("pointermove", this.onMove);

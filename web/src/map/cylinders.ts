@@ -3,12 +3,12 @@ import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 import { altitude, distance } from "../units/quantities";
 import type { Colours } from "./colours";
-import { kSymbolRadius_px } from "./shapes";
-import type { Sight } from "./sights";
+import { clearanceOf, type Sight } from "./sights";
 import type { TextImages } from "./text_images";
 import { pixelsPerMetre, type View } from "./view";
 
 const kNoteFont = "550 11px 'Inter Variable', sans-serif";
+const kTag_px = 18;
 /** Cylinders of more UAVs than this hide the map. */
 const kMost = 50;
 
@@ -41,7 +41,8 @@ export function drawCylinders(
       padding_px: 3,
       line_px: 14,
     }));
-    const y = sight.y + Math.max(radius_px, kSymbolRadius_px) + 3;
+    // Below the tag that a threatened UAV may have.
+    const y = sight.y + Math.max(radius_px, clearanceOf(sight) + (sight.level > 0 ? kTag_px : 0)) + 3;
     context.drawImage(image, Math.round(sight.x - width / 2), Math.round(y), width, height);
   }
 }

@@ -30,7 +30,7 @@ export function MapFoot({ map }: { map: FleetMap }) {
 function MeasureHint({ map }: { map: FleetMap }) {
   return (
     <div class="measure-hint panel" role="status">
-      <span>Click or tap the points of the line; with the keyboard, Enter adds the middle of the map.</span>
+      <span>Click the points, or press Enter for the middle</span>
       <button
         type="button"
         class="button"
