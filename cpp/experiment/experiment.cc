@@ -118,9 +118,11 @@ struct Experiment::Impl {
                                 : std::make_unique<bus::LogWriter>(transport, executor, options.log)),
         // The simulator first: what happens at one instant happens in the order in which the nodes were made.
         simulator(simulator_bus, {.scenario = scenario, .seed = options.seed}),
-        controller(
-            controller_bus,
-            {.scenario = scenario, .status_every_ticks = 1, .state_file = {}, .state = options.formations}),
+        controller(controller_bus, {.scenario = scenario,
+                                    .find_scenario = {},
+                                    .status_every_ticks = 1,
+                                    .state_file = {},
+                                    .state = options.formations}),
         listener(operator_bus),
         start(executor.Now()) {
     for (bus::Bus* node : {&simulator_bus, &controller_bus, &monitor_bus, &operator_bus}) {
