@@ -27,7 +27,7 @@ struct ControllerOptions {
   std::optional<config::Scenario> scenario;
   /// The scenario of a fleet that has started anew, by the name in its roster; none: not found. Empty:
   /// `scenario` is for every flight.
-  std::function<std::optional<config::Scenario>(const std::string& name)> find_scenario;
+  std::function<std::optional<config::Scenario>(const std::string& name)> find_scenario{};
   /// FORMATION_STATUS goes out each so many ticks of FLEET_STATE, >= 1.
   int status_every_ticks = 4;
   /// Where the state of all formations is kept, so that a controller that died picks up where it was; empty:

@@ -27,7 +27,7 @@ struct CollisionMonitorOptions {
   std::vector<KnownFormation> formations;        ///< until FORMATION says more
   /// The options of a fleet that has started anew, by the scenario's name in its roster; none: not found.
   /// Empty: these are for every flight.
-  std::function<std::optional<CollisionMonitorOptions>(const std::string& name)> find_options;
+  std::function<std::optional<CollisionMonitorOptions>(const std::string& name)> find_options{};
   LinkTimes link_times;
   UncertaintyGrowth uncertainty;
 };
