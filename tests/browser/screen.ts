@@ -120,30 +120,37 @@ export class Screen {
     return this.page.locator(selector).innerText();
   }
 
-  /** Where on the map a UAV's symbol is: the middle of the pixels in its identity colour. Null: it isn't to be seen. */
-  symbol(id: number): Promise<Centre | null> {
-    return this.page.evaluate((identity) => {
-      const drawn = document.querySelector<HTMLCanvasElement>("canvas.fleet");
-      if (drawn === null) return null;
-      const canvas = new OffscreenCanvas(drawn.width, drawn.height);
-      const context = canvas.getContext("2d", { willReadFrequently: true });
-      if (context === null) return null;
-      context.drawImage(drawn, 0, 0);
-      const hex = getComputedStyle(document.documentElement)
-        .getPropertyValue(`--identity-${identity}`)
-        .trim();
-      const [red, green, blue] = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-      const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
-      let [count, x, y] = [0, 0, 0];
-      for (let i = 0; i < data.length; i += 4) {
-        // Only the symbol is opaque: trail, vector and slot are drawn thinner or paler.
-        if (data[i] !== red || data[i + 1] !== green || data[i + 2] !== blue || data[i + 3] !== 255) continue;
-        count += 1;
-        x += (i / 4) % canvas.width;
-        y += Math.floor(i / 4 / canvas.width);
-      }
-      return count < 20 ? null : { x: x / count, y: y / count };
-    }, id);
+  /**
+   * Where on the map, or on another canvas, a UAV's symbol is: the middle of the pixels in its identity colour. Null: it isn't
+   * to be seen.
+   */
+  symbol(id: number, canvas = "canvas.fleet"): Promise<Centre | null> {
+    return this.page.evaluate(
+      ([identity, selector]) => {
+        const drawn = document.querySelector<HTMLCanvasElement>(selector);
+        if (drawn === null) return null;
+        const canvas = new OffscreenCanvas(drawn.width, drawn.height);
+        const context = canvas.getContext("2d", { willReadFrequently: true });
+        if (context === null) return null;
+        context.drawImage(drawn, 0, 0);
+        const hex = getComputedStyle(document.documentElement)
+          .getPropertyValue(`--identity-${identity}`)
+          .trim();
+        const [red, green, blue] = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+        const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+        let [count, x, y] = [0, 0, 0];
+        for (let i = 0; i < data.length; i += 4) {
+          // Only the symbol is opaque: trail, vector and slot are drawn thinner or paler.
+          if (data[i] !== red || data[i + 1] !== green || data[i + 2] !== blue || data[i + 3] !== 255)
+            continue;
+          count += 1;
+          x += (i / 4) % canvas.width;
+          y += Math.floor(i / 4 / canvas.width);
+        }
+        return count < 20 ? null : { x: x / count, y: y / count };
+      },
+      [id, canvas] as const,
+    );
   }
 
   /** What axe finds wrong with the page for people who can't see, or not well. */

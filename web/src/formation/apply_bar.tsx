@@ -3,7 +3,7 @@ import { CommandButton } from "../panels/command_button";
 import { Lamp } from "../panels/icons";
 import { duration, kNone } from "../units/format";
 import type { FormationEditor } from "./editor";
-import type { FormationPreview, LimitReached, PreviewState } from "./preview";
+import type { FlownAhead, LimitReached, PreviewState } from "./preview";
 import { pair, risksOf } from "./risks";
 import type { EditSession } from "./session";
 import { separation } from "./words";
@@ -129,7 +129,7 @@ function PreviewFigures({ editor, preview }: { editor: FormationEditor; preview:
 }
 
 interface FiguresProps {
-  result: FormationPreview;
+  result: FlownAhead;
   callsign: (id: number) => string;
 }
 
@@ -170,10 +170,19 @@ function Figures({ result, callsign }: FiguresProps) {
   );
 }
 
+/** The bridge's names of what an envelope limits. */
+const kLimits: Readonly<Record<string, string>> = {
+  min_speed: "least speed",
+  max_speed: "greatest speed",
+  course_rate: "turn rate",
+  climb: "climb angle",
+  climb_rate: "climb-angle rate",
+};
+
 function Limits({ limits, callsign }: { limits: readonly LimitReached[]; callsign: (id: number) => string }) {
   const longest = [...limits].sort((a, b) => b.seconds - a.seconds);
   const text = ({ vehicle_id, limit, t_s, seconds }: LimitReached) =>
-    `${callsign(vehicle_id)}: ${limit}, ${Math.max(1, Math.round(seconds))} s from +${Math.round(t_s)} s`;
+    `${callsign(vehicle_id)}: ${kLimits[limit] ?? limit}, ${Math.max(1, Math.round(seconds))} s from +${Math.round(t_s)} s`;
   const [first, ...others] = longest;
   if (first === undefined) return "nobody";
   return (
@@ -185,7 +194,7 @@ function Limits({ limits, callsign }: { limits: readonly LimitReached[]; callsig
 }
 
 /** Where everybody would be, at any time of the preview, is drawn on the map. */
-function Scrubber({ editor, result }: { editor: FormationEditor; result: FormationPreview }) {
+function Scrubber({ editor, result }: { editor: FormationEditor; result: FlownAhead }) {
   const at_s = Math.min(editor.looked_at_s.value, result.duration_s);
   return (
     <label class="scrubber">

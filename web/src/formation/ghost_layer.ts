@@ -9,7 +9,7 @@ import { mercatorLine, pixelOf, viewOf, xOf, yOf, type Pixel, type View } from "
 import { theme } from "../state/settings";
 import type { LocalFrame } from "../units/geodesy";
 import type { FormationEditor } from "./editor";
-import type { FormationPreview, Track } from "./preview";
+import type { FlownAhead, Track } from "./preview";
 
 const kMoves = "move zoom resize";
 /** Nearer than this a UAV is in its slot, and no line leads there. */
@@ -20,7 +20,7 @@ export class GhostLayer {
   private readonly stop: () => void;
   private colours: Colours = readColours();
   /** Tracks in the map's coordinates, worked out once. */
-  private lines: { of: FormationPreview; frame: LocalFrame; tracks: Map<number, Float64Array> } | null = null;
+  private lines: { of: FlownAhead; frame: LocalFrame; tracks: Map<number, Float64Array> } | null = null;
 
   constructor(
     private readonly map: MapAccess,
@@ -99,7 +99,7 @@ export class GhostLayer {
     context: CanvasRenderingContext2D,
     view: View,
     frame: LocalFrame,
-    result: FormationPreview,
+    result: FlownAhead,
   ): void {
     const at_s = this.editor.looked_at_s.peek();
     for (const track of result.tracks) {
@@ -138,7 +138,7 @@ export class GhostLayer {
     });
   }
 
-  private tracksOf(result: FormationPreview, frame: LocalFrame): Map<number, Float64Array> {
+  private tracksOf(result: FlownAhead, frame: LocalFrame): Map<number, Float64Array> {
     if (this.lines?.of !== result || this.lines.frame !== frame) {
       const tracks = result.tracks.map(({ id, points }) => {
         const enu = points.map(([, east, north, up]) => [east, north, up] as const);

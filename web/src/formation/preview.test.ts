@@ -5,9 +5,10 @@ import { Preview, type FormationPreview } from "./preview";
 
 const kResult: FormationPreview = {
   ok: true,
-  reason: "",
   duration_s: 60,
+  complete: true,
   least: null,
+  nearest: [],
   settle_s: 20,
   limits: [],
   tracks: [],

@@ -3,22 +3,27 @@ import { signal, type ReadonlySignal } from "@preact/signals";
 import { ApiError, type Api } from "../link/api";
 import { bodyOf, type Draft } from "./draft";
 
-/** Answer to POST /api/preview/formation (cpp/bridge/README.md). */
-export interface FormationPreview {
-  /** False: the station would refuse it, and `reason` tells why. */
-  ok: boolean;
-  reason: string;
+/** Answer to POST /api/preview/formation (cpp/bridge/README.md). When it is not `ok`, nothing else is told. */
+export type FormationPreview = { ok: false; reason: string } | FlownAhead;
+
+export interface FlownAhead {
+  ok: true;
   duration_s: number;
-  /** The nearest that two UAVs come, null: there are no two. */
-  least: Least | null;
+  /** False: it was ended before all had settled. */
+  complete: boolean;
+  /** Null: nobody else is there. */
+  least: Approach | null;
+  /** The nearest pairs, worst first. */
+  nearest: Approach[];
   /** Null: not within the time that was flown. */
   settle_s: number | null;
-  /** Where UAVs fly at the limit of their envelope. */
+  /** Who was kept out of its slot by its envelope. */
   limits: LimitReached[];
   tracks: Track[];
 }
 
-export interface Least {
+/** How near two UAVs come to one another's cylinder. */
+export interface Approach {
   horizontal_m: number;
   vertical_m: number;
   t_s: number;

@@ -1,28 +1,38 @@
 import { describe, expect, test } from "vitest";
-import type { FormationPreview, PreviewState } from "./preview";
+import type { Approach, FlownAhead, PreviewState } from "./preview";
 import { risksOf } from "./risks";
 
-const done = (change: Partial<FormationPreview>): PreviewState => ({
+const approach = (one: number, other: number, inside_cylinder: boolean): Approach => ({
+  horizontal_m: 120.4,
+  vertical_m: 12,
+  t_s: 33.6,
+  ids: [one, other],
+  inside_cylinder,
+});
+const done = (result: Partial<FlownAhead> | { ok: false; reason: string }): PreviewState => ({
   kind: "done",
   at_ms: 0,
-  result: {
-    ok: true,
-    reason: "",
-    duration_s: 60,
-    least: null,
-    settle_s: 20,
-    limits: [],
-    tracks: [],
-    ...change,
-  },
+  result:
+    result.ok === false
+      ? { ok: false, reason: result.reason }
+      : {
+          ok: true,
+          duration_s: 60,
+          complete: true,
+          least: null,
+          nearest: [],
+          settle_s: 20,
+          limits: [],
+          tracks: [],
+          ...result,
+        },
 });
-const least = { horizontal_m: 120.4, vertical_m: 12, t_s: 33.6, ids: [2, 3] as [number, number] };
 const risks = (conflicts: Parameters<typeof risksOf>[0], preview: PreviewState) =>
   risksOf(conflicts, preview, (id) => `UAV${id}`).map(({ text, level }) => `${level}: ${text}`);
 
 describe("risks", () => {
   test("are none where nobody comes near", () => {
-    expect(risks([], done({ least: { ...least, inside_cylinder: false } }))).toEqual([]);
+    expect(risks([], done({ nearest: [approach(2, 3, false)] }))).toEqual([]);
     expect(risks([], { kind: "running", since_ms: 0 })).toEqual([]);
   });
 
@@ -32,9 +42,11 @@ describe("risks", () => {
       { ids: [1, 3] as const, horizontal_m: 95, vertical_m: 0 },
       { ids: [2, 3] as const, horizontal_m: 99, vertical_m: 0 },
     ];
-    expect(risks(conflicts, done({ least: { ...least, inside_cylinder: true } }))).toEqual([
-      "3: The slots of UAV1 and UAV2 are inside one another’s cylinder: R 90 m, H 0 m. So are 2 more pairs.",
-      "3: UAV2 and UAV3 come inside one another’s cylinder on the way: R 120 m, H 12 m after 34 s.",
+    expect(
+      risks(conflicts, done({ nearest: [approach(1, 2, true), approach(4, 5, true), approach(2, 6, true)] })),
+    ).toEqual([
+      "3: The slots of UAV1 and UAV2 lie inside one another’s cylinder: R 90 m, H 0 m. So do 2 more pairs.",
+      "3: UAV4 and UAV5 come inside one another’s cylinder on the way: R 120 m, H 12 m after 34 s. So does 1 more pair.",
     ]);
   });
 

@@ -18,27 +18,40 @@ export function risksOf(
   const risks: Risk[] = [];
   const [nearest] = conflicts;
   if (nearest !== undefined) {
-    const more =
-      conflicts.length > 1
-        ? ` ${conflicts.length === 2 ? "So is 1 more pair" : `So are ${conflicts.length - 1} more pairs`}.`
-        : "";
+    const { horizontal_m, vertical_m } = nearest;
     risks.push({
       level: 3,
-      text: `The slots of ${pair(nearest.ids, callsign)} are inside one another’s cylinder: ${separation(nearest.horizontal_m, nearest.vertical_m)}.${more}`,
+      text: `The slots of ${pair(nearest.ids, callsign)} lie inside one another’s cylinder: ${separation(horizontal_m, vertical_m)}.${andMore(conflicts.length - 1)}`,
     });
   }
-  if (preview.kind === "failed")
+  if (preview.kind === "failed") {
     risks.push({ level: -1, text: `It could not be flown ahead: ${preview.reason}` });
+  }
   if (preview.kind !== "done") return risks;
-  const { ok, reason, least } = preview.result;
-  if (!ok) risks.push({ level: -1, text: `The station would refuse it: ${reason}` });
-  if (ok && least?.inside_cylinder === true) {
+  const { result } = preview;
+  if (!result.ok) {
+    risks.push({ level: -1, text: `The station would refuse it: ${result.reason}` });
+    return risks;
+  }
+  // Those whose very slots are too near are told of above.
+  const known = new Set(conflicts.map(({ ids }) => ids.join()));
+  const inside = result.nearest.filter(
+    ({ ids, inside_cylinder }) => inside_cylinder && !known.has(ids.join()),
+  );
+  const [worst] = inside;
+  if (worst !== undefined) {
+    const { horizontal_m, vertical_m, t_s } = worst;
     risks.push({
       level: 3,
-      text: `${pair(least.ids, callsign)} come inside one another’s cylinder on the way: ${separation(least.horizontal_m, least.vertical_m)} after ${Math.round(least.t_s)} s.`,
+      text: `${pair(worst.ids, callsign)} come inside one another’s cylinder on the way: ${separation(horizontal_m, vertical_m)} after ${Math.round(t_s)} s.${andMore(inside.length - 1)}`,
     });
   }
   return risks;
+}
+
+function andMore(count: number): string {
+  if (count <= 0) return "";
+  return count === 1 ? " So does 1 more pair." : ` So do ${count} more pairs.`;
 }
 
 export function pair(ids: readonly [number, number], callsign: (id: number) => string): string {
