@@ -126,7 +126,7 @@ test("undo takes back the keys and the drag, each as one step", async () => {
   await screen.page.keyboard.press("Control+z");
   await until(async () => expect(await draftState()).toContain("shape, spacing, 2 places"), 2000);
   expect(await screen.page.locator(".risk").count()).toBe(0);
-  expect(await screen.text(".shape-name")).toBe("Vee");
+  expect(await screen.page.getByRole("radio", { name: "Vee" }).isChecked()).toBe(true);
 });
 
 test("who flies where is exchanged by hand, and proposed again", async () => {

@@ -134,12 +134,16 @@ interface FiguresProps {
 }
 
 function Figures({ result, callsign }: FiguresProps) {
-  const { least, settle_s, limits } = result;
+  const { least, nearest, settle_s, limits } = result;
+  const pairs = nearest.map(
+    ({ ids, horizontal_m, vertical_m, t_s }) =>
+      `${pair(ids, callsign)}: ${separation(horizontal_m, vertical_m)}, +${Math.round(t_s)} s`,
+  );
   return (
     <dl class="figures">
       <div>
         <dt>Least distance</dt>
-        <dd class="least">
+        <dd class="least" title={pairs.join("\n")}>
           {least === null ? (
             kNone
           ) : (

@@ -1,6 +1,5 @@
 /** The draft on the map: where its slots would be, who would fly to which, and the tracks that were flown ahead. */
 import { effect } from "@preact/signals";
-import type L from "leaflet";
 import { readColours, identityOf, type Colours } from "../map/colours";
 import type { MapAccess } from "../map/map_access";
 import { Overlay } from "../map/overlay";
@@ -19,6 +18,8 @@ export class GhostLayer {
   private readonly overlay: Overlay;
   private readonly stop: () => void;
   private colours: Colours = readColours();
+  /** The frame of the screen that is waited for, 0: none. */
+  private waiting = 0;
   /** Tracks in the map's coordinates, worked out once. */
   private lines: { of: FlownAhead; frame: LocalFrame; tracks: Map<number, Float64Array> } | null = null;
 
@@ -27,11 +28,11 @@ export class GhostLayer {
     private readonly editor: FormationEditor,
   ) {
     this.overlay = new Overlay(map.leaflet, "ghosts");
-    map.leaflet.on(kMoves, this.draw);
+    map.leaflet.on(kMoves, this.want);
     const stops = [
       theme.subscribe(() => {
         this.colours = readColours();
-        this.draw();
+        this.want();
       }),
       effect(() => {
         // Whatever of these changes, the picture does.
@@ -39,7 +40,7 @@ export class GhostLayer {
         void editor.session.value?.draft.value;
         void editor.looked_at_s.value;
         void editor.preview.state.value;
-        this.draw();
+        this.want();
       }),
     ];
     this.stop = () => {
@@ -49,11 +50,18 @@ export class GhostLayer {
 
   remove(): void {
     this.stop();
-    this.map.leaflet.off(kMoves, this.draw as L.LeafletEventHandlerFn);
+    cancelAnimationFrame(this.waiting);
+    this.map.leaflet.off(kMoves, this.want);
     this.overlay.remove();
   }
 
+  /** Draws once a frame of the screen, however much has changed. */
+  private readonly want = (): void => {
+    if (this.waiting === 0) this.waiting = requestAnimationFrame(this.draw);
+  };
+
   private readonly draw = (): void => {
+    this.waiting = 0;
     const view = viewOf(this.map.leaflet);
     const context = this.overlay.begin(view);
     const frame = this.map.frame();

@@ -50,6 +50,13 @@ describe("risks", () => {
     ]);
   });
 
+  test("are what comes after a flight that was broken off, but not after one that was long enough", () => {
+    expect(risks([], done({ complete: false, duration_s: 8.4 }))).toEqual([
+      "-1: Only the first 8 s could be flown ahead: what comes then is not known.",
+    ]);
+    expect(risks([], done({ complete: false, duration_s: 300, settle_s: null }))).toEqual([]);
+  });
+
   test("are that nobody knows, when it could not be flown ahead", () => {
     expect(risks([], { kind: "failed", reason: "web-bridge answered 404." })).toEqual([
       "-1: It could not be flown ahead: web-bridge answered 404.",

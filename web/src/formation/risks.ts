@@ -3,6 +3,9 @@ import type { Conflict } from "./checks";
 import type { PreviewState } from "./preview";
 import { separation } from "./words";
 
+/** The bridge flies no longer ahead than this [s]; less is for want of time to compute. */
+const kLongest_s = 299;
+
 export interface Risk {
   text: string;
   /** As the alerts: 3 is inside a cylinder, -1 that nobody knows. */
@@ -32,6 +35,13 @@ export function risksOf(
   if (!result.ok) {
     risks.push({ level: -1, text: `The station would refuse it: ${result.reason}` });
     return risks;
+  }
+  if (!result.complete && result.duration_s < kLongest_s) {
+    const flown_s = Math.floor(result.duration_s);
+    risks.push({
+      level: -1,
+      text: `Only the first ${flown_s} s could be flown ahead: what comes then is not known.`,
+    });
   }
   // Those whose very slots are too near are told of above.
   const known = new Set(conflicts.map(({ ids }) => ids.join()));

@@ -48,7 +48,18 @@ export function ShapeForm({ editor, session }: FormProps) {
         ))}
       </div>
       <div class="fields">
-        <span class="shape-name">{kShapeNames[draft.shape]}</span>
+        <label class="field name">
+          <span aria-hidden="true">Name</span>
+          <input
+            type="text"
+            aria-label="Name"
+            maxLength={40}
+            value={draft.name}
+            onChange={(event) => {
+              editor.change({ ...draft, name: event.currentTarget.value.trim() }, "name");
+            }}
+          />
+        </label>
         <label class="field">
           <span aria-hidden="true">Spacing [{distance.unit()}]</span>
           <NumberField

@@ -1,4 +1,4 @@
-import { useSignal } from "@preact/signals";
+import { computed, useSignal } from "@preact/signals";
 import { useCallback, useEffect, useRef } from "preact/hooks";
 import { readColours } from "../map/colours";
 import { remembered } from "../state/remembered";
@@ -25,6 +25,11 @@ const snap_step = remembered<number>(
   10,
   (stored) => kSteps.find((step) => step === stored) ?? null,
 );
+/** The document has taken the theme on already; reading its colours costs more than drawing a few slots. */
+const colours_now = computed(() => {
+  void theme.value;
+  return readColours();
+});
 let gestures = 0;
 
 interface SlotCanvasProps {
@@ -77,7 +82,7 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
   }, [draft.lead_m, draft.slots.length, view]);
 
   const now_ms = store.now_ms.value;
-  const theme_now = theme.value;
+  const colours = colours_now.value;
   const shown = viewNow();
   const conflicts = editor.conflicts.value;
   useEffect(() => {
@@ -98,12 +103,12 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
       selection,
       conflicting: new Set(conflicts.flatMap(({ ids }) => ids)),
       seen: new Map(seen),
-      colours: readColours(),
+      colours,
       font: getComputedStyle(element).fontFamily,
       lengthText: (metres) => distance.full(metres),
       unit_m: distance.toSi(1),
     });
-  }, [editor, draft, selection, conflicts, now_ms, theme_now, shown]);
+  }, [editor, draft, selection, conflicts, now_ms, colours, shown]);
 
   const step_m = distance.toSi(snap_step.value);
   const members = new Set(draft.slots.map(({ vehicle_id }) => vehicle_id));
