@@ -175,7 +175,14 @@ test("what another operator changes meanwhile is pointed out, and the draft is k
 
 test("a new formation is made of what is selected", async () => {
   explain();
-  await screen.row(4).getByRole("button", { name: "UAV4" }).first().click();
+  await screen.show(1280, 720, "dark");
+  const box = await screen.page.locator(".map").boundingBox();
+  await until(async () => {
+    const seen = await screen.symbol(4);
+    if (box === null || seen === null) throw new Error("UAV4 is not on the map");
+    await screen.page.mouse.click(box.x + seen.x, box.y + seen.y);
+    expect(await screen.button("New").isEnabled()).toBe(true);
+  }, 10_000);
   await screen.button("New").click();
   await until(async () => expect(await draftState()).toContain("Not flown yet"), 2000);
   await until(async () => expect(await apply().isEnabled()).toBe(true), 30_000);

@@ -27,9 +27,9 @@ export function LimitsForm({ session }: { session: EditSession }) {
           R {distance.full(draft.limits.radius_m)}, H {altitude.full(draft.limits.height_m)}
         </span>
       </summary>
-      <div class="fields">
+      <div class="formation-fields">
         {kLimitFields.map(([name, label, short, quantity, least, most]) => (
-          <label class="field" key={name} title={label}>
+          <label class="formation-field" key={name} title={label}>
             <span aria-hidden="true">
               {short} [{quantity.unit()}]
             </span>

@@ -47,8 +47,8 @@ export function ShapeForm({ editor, session }: FormProps) {
           </label>
         ))}
       </div>
-      <div class="fields">
-        <label class="field name">
+      <div class="formation-fields">
+        <label class="formation-field name">
           <span aria-hidden="true">Name</span>
           <input
             type="text"
@@ -60,7 +60,7 @@ export function ShapeForm({ editor, session }: FormProps) {
             }}
           />
         </label>
-        <label class="field">
+        <label class="formation-field">
           <span aria-hidden="true">Spacing [{distance.unit()}]</span>
           <NumberField
             label={custom ? "Spacing: a custom formation has none, move its slots" : "Spacing"}
@@ -75,7 +75,7 @@ export function ShapeForm({ editor, session }: FormProps) {
             }}
           />
         </label>
-        <label class="field">
+        <label class="formation-field">
           <span aria-hidden="true">Lead [{distance.unit()}]</span>
           <NumberField
             label="How far ahead of the first slot the virtual leader flies"
