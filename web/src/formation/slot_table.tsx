@@ -114,7 +114,7 @@ function SlotRow({ editor, session, draft, slot, index, ground, now_ms }: SlotRo
         ) : (
           <button
             type="button"
-            class="uav-name"
+            class="slot-uav"
             title={`Select ${callsign}`}
             onClick={() => {
               store.select([id]);
