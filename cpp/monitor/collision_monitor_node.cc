@@ -32,6 +32,10 @@ KnownFormation ToKnownFormation(const formation_t& message) {
   return formation;
 }
 
+std::string AlarmKey(const PairAlert& pair) {
+  return fmt::format("proximity:{}-{}", pair.first_id, pair.second_id);
+}
+
 const char* CodeOf(AlertLevel level) {
   switch (level) {
     case AlertLevel::kClear:
@@ -92,6 +96,8 @@ void CollisionMonitorNode::StartFlight(const fleet_roster_t& roster) {
   if (!TakeScenario(roster.scenario, again) && !again) return;
   // Nothing of what was in the air before is there any more.
   const Utime now = bus_.executor().Now();
+  for (const auto& [id, uav] : uavs_) alarms_.End(uav.alarm_key());
+  for (const PairAlert& pair : levels_.active()) alarms_.End(AlarmKey(pair));
   uavs_.clear();
   levels_ = AlertLevels();
   levels_from_ = now + kSettling;
@@ -238,7 +244,7 @@ void CollisionMonitorNode::Sweep() {
 
 void CollisionMonitorNode::RaiseOrEnd(const AlertChange& change, const Notice& notice) {
   const PairAlert& pair = change.pair;
-  const std::string key = fmt::format("proximity:{}-{}", pair.first_id, pair.second_id);
+  const std::string key = AlarmKey(pair);
   // An advisory is for looking, not for acting: PROXIMITY and the table show it.
   if (pair.level < AlertLevel::kCaution) return alarms_.End(key);
   alarms_.Raise({key, pair.level, notice.text, pair.first_id, pair.second_id, notice.formation_id});
