@@ -21,8 +21,14 @@ export function showBase(
     (layer) => {
       if (gone || layer === null) return;
       shown = layer;
+      // A map has edges and holes; something is wrong only while nothing of it comes.
+      let came = false;
+      layer.on("tileload", () => {
+        came = true;
+        if (!gone) problem.value = "";
+      });
       layer.on("tileerror", () => {
-        complain("some of its tiles don't come, or are no images");
+        if (!came) complain("none of its tiles has come for this place");
       });
       layer.addTo(map);
     },

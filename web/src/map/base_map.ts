@@ -9,13 +9,18 @@ import type { Colours } from "./colours";
 
 type Atlas = Topology<{ land: GeometryCollection; countries: GeometryCollection }>;
 
+const kPane = "land";
+
 /** Natural Earth's land and borders, served with the page. */
 export class Land {
+  private readonly renderer = L.canvas({ pane: kPane });
   private readonly land = L.featureGroup();
   private readonly borders = L.featureGroup();
   private colours: Colours | null = null;
 
   constructor(map: L.Map) {
+    // Below the tiles: where there are some, they are the better map.
+    map.createPane(kPane).style.zIndex = "150";
     this.land.addTo(map);
     this.borders.addTo(map);
   }
@@ -30,6 +35,7 @@ export class Land {
     for (const shift_deg of [0, -360, 360]) {
       const options: L.GeoJSONOptions = {
         interactive: false,
+        ...{ pane: kPane, renderer: this.renderer },
         coordsToLatLng: (at) => L.latLng(at[1], at[0] + shift_deg),
         attribution: "Natural Earth",
       };

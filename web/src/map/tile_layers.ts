@@ -5,6 +5,9 @@ import type { Hello } from "../link/messages";
 import type { BaseMap } from "./layers";
 
 const kClosest_zoom = 19;
+/** Tiles are enlarged by this many levels at most: beyond, one covers many screens and the browser groans. */
+const kMostEnlarged = 4;
+const closest = (max_zoom: number) => Math.min(kClosest_zoom, max_zoom + kMostEnlarged);
 
 export interface BaseChoice {
   base: BaseMap;
@@ -41,9 +44,9 @@ export async function tileLayerFor(hello: Hello | null, base: BaseMap): Promise<
   if (tiles.kind === "pmtiles") return archiveLayer(tiles.url);
   return L.tileLayer(tiles.url, {
     attribution: tiles.attribution,
-    minNativeZoom: tiles.min_zoom,
+    minZoom: tiles.min_zoom,
     maxNativeZoom: tiles.max_zoom,
-    maxZoom: kClosest_zoom,
+    maxZoom: closest(tiles.max_zoom),
   });
 }
 
@@ -55,9 +58,9 @@ async function archiveLayer(url: string): Promise<L.GridLayer> {
   const metadata = (await archive.getMetadata()) as { attribution?: unknown } | null;
   return new ArchiveLayer(archive, {
     attribution: typeof metadata?.attribution === "string" ? metadata.attribution : "",
-    minNativeZoom: header.minZoom,
+    minZoom: header.minZoom,
     maxNativeZoom: header.maxZoom,
-    maxZoom: kClosest_zoom,
+    maxZoom: closest(header.maxZoom),
     bounds: [
       [header.minLat, header.minLon],
       [header.maxLat, header.maxLon],
