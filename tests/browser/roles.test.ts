@@ -58,7 +58,7 @@ test("who looks on sees that nothing can be commanded, and why", async () => {
   expect(await payload(bob).getAttribute("aria-disabled")).toBe("true");
   expect(await payload(bob).getAttribute("title")).toBe("Payload of UAV1: Ada holds control");
   await payload(bob).click({ force: true });
-  expect(await bob.page.getByRole("alert").innerText()).toContain("Ada holds control");
+  expect(await bob.text(".refusal")).toContain("Ada holds control");
   await bob.button("Dismiss").click();
   await payload(ada).click();
   await until(async () => expect((await bob.uav(1)).payload_on).toBe(true));
@@ -134,6 +134,7 @@ test("control of a holder who is gone for ten seconds goes to who asked for it",
 
 test("what became of control is among the events, so it is in the recording", async () => {
   explain();
+  await ada.page.getByRole("tab", { name: "Events" }).click();
   const events = await ada.text(".events");
   for (const text of [
     "Ada has handed control over to Bob",
@@ -146,6 +147,7 @@ test("what became of control is among the events, so it is in the recording", as
 
 test("released, control is nobody's until it is taken, and who only wants to look does not take it", async () => {
   explain();
+  await menu(ada);
   await ada.button("Release control").click();
   await until(async () => expect(await who(ada)).toBe("Nobody"));
   await ada.page.getByLabel("View only").check();
