@@ -16,21 +16,15 @@ function explain(): void {
 }
 
 /** What the panel says was done last to the link of a UAV. */
-const word = (id: number) =>
-  screen.text(`.links li[data-id="${id}"] .last-word`);
-const choose = (name: string) =>
-  screen.page.getByRole("radio", { name, exact: true }).check({ force: true });
+const word = (id: number) => screen.text(`.links li[data-id="${id}"] .last-word`);
+const choose = (name: string) => screen.page.getByRole("radio", { name, exact: true }).check({ force: true });
 const type = async (label: string, text: string) => {
   const field = screen.page.getByRole("textbox", { name: label, exact: true });
   await field.fill(text);
   await field.press("Enter");
 };
 async function elapsed_s(): Promise<number> {
-  const [hours = NaN, minutes = NaN, seconds = NaN] = (
-    await screen.text(".elapsed")
-  )
-    .split(":")
-    .map(Number);
+  const [hours = NaN, minutes = NaN, seconds = NaN] = (await screen.text(".elapsed")).split(":").map(Number);
   return 3600 * hours + 60 * minutes + seconds;
 }
 
@@ -40,9 +34,7 @@ beforeAll(async () => {
   screen = await Screen.open();
   await screen.row(2).waitFor();
   await screen.button("Simulation").click();
-  await screen.page
-    .getByRole("heading", { name: "Data links of all 2 UAVs" })
-    .waitFor();
+  await screen.page.getByRole("heading", { name: "Data links of all 2 UAVs" }).waitFor();
 });
 
 afterAll(async () => {
@@ -73,15 +65,11 @@ test("a link is made slow and lossy, and good again", async () => {
   await type("Delay [s]", "0.5");
   await type("Loss [%]", "20");
   await screen.button("Set delay and loss of UAV2").click();
-  await until(async () =>
-    expect(await word(2)).toMatch(/0\.5 s delay.*20% loss/),
-  );
+  await until(async () => expect(await word(2)).toMatch(/0\.5 s delay.*20% loss/));
   await type("Delay [s]", "61");
   expect(await screen.page.getByRole("alert").innerText()).toMatch(/60/);
   await screen.page.keyboard.press("Escape");
-  await screen
-    .button("Restore the links of UAV2, without delay or loss")
-    .click();
+  await screen.button("Restore the links of UAV2, without delay or loss").click();
   await until(async () => expect(await word(2)).not.toMatch(/delay/));
 });
 
@@ -97,9 +85,7 @@ test("all links are cut at once, and restored", async () => {
       });
     }
   });
-  await screen
-    .button("Restore the links of all 2 UAVs, without delay or loss")
-    .click();
+  await screen.button("Restore the links of all 2 UAVs, without delay or loss").click();
   await until(async () => {
     for (const id of [1, 2])
       expect(await screen.uav(id)).toMatchObject({
@@ -117,15 +103,11 @@ test("the scenario is started anew after a second look", async () => {
   await screen.button("Restart…").click();
   await screen.button("Restart now").click();
   await until(async () => {
-    expect(await screen.page.locator(".simulation").innerText()).toContain(
-      "Started.",
-    );
+    expect(await screen.page.locator(".simulation").innerText()).toContain("Started.");
     expect(await elapsed_s()).toBeLessThan(before_s);
   }, 5000);
   await until(async () => {
-    expect(await screen.text(".events")).toMatch(
-      /simulation starts anew: Two abreast, 2 UAVs/i,
-    );
+    expect(await screen.text(".events")).toMatch(/simulation starts anew: Two abreast, 2 UAVs/i);
     expect(await screen.text(".mode-name")).toBe("In formation");
   });
 });
@@ -147,9 +129,7 @@ test("another scenario with more UAVs is chosen, read about and loaded", async (
   }
   await screen.button("Load now").click();
   await until(async () => {
-    expect(
-      await screen.page.locator(".uav-table tbody tr[data-id]").count(),
-    ).toBe(4);
+    expect(await screen.page.locator(".uav-table tbody tr[data-id]").count()).toBe(4);
     expect(await screen.text(".scenario")).toBe("Four abreast");
   }, 5000);
   await until(async () => {
