@@ -33,6 +33,7 @@ beforeAll(async () => {
   await station.answers();
   screen = await Screen.open();
   await screen.row(2).waitFor();
+  await screen.page.getByRole("tab", { name: "Events" }).click();
   await screen.button("Simulation").click();
   await screen.page.getByRole("heading", { name: "Data links of all 2 UAVs" }).waitFor();
 });
@@ -67,7 +68,7 @@ test("a link is made slow and lossy, and good again", async () => {
   await screen.button("Set delay and loss of UAV2").click();
   await until(async () => expect(await word(2)).toMatch(/0\.5 s delay.*20% loss/));
   await type("Delay [s]", "61");
-  expect(await screen.page.getByRole("alert").innerText()).toMatch(/60/);
+  expect(await screen.text(".field-problem")).toMatch(/60/);
   await screen.page.keyboard.press("Escape");
   await screen.button("Restore the links of UAV2, without delay or loss").click();
   await until(async () => expect(await word(2)).not.toMatch(/delay/));
