@@ -76,8 +76,8 @@ function madeUpFleet(count) {
     });
   }
 
-  function status(words) {
-    return frame(2, words, 4, (column) => {
+  function status() {
+    return frame(2, 18, 4, (column) => {
       column(Int32Array, (i) => i + 1);
       column(Int32Array, (i) => Math.floor(i / 10) + 1);
       for (let k = 0; k < 3; k += 1) column(Float32Array, () => 5);
@@ -88,7 +88,7 @@ function madeUpFleet(count) {
       column(Int32Array, partner);
       column(Float32Array, () => 20);
       for (let k = 10; k < 17; k += 1) column(Float32Array, () => 0);
-      if (words === 18) column(Int32Array, partner);
+      column(Int32Array, partner);
       column(Uint8Array, level);
       column(Uint8Array, () => 0);
       column(Uint8Array, () => 0);
@@ -138,7 +138,7 @@ function madeUpFleet(count) {
       const vehicles = Array.from({ length: count }, (_, i) => ({ id: i + 1, callsign: `UAV${i + 1}`, model: "default", has_payload: false }));
       text({ type: "roster", utime: utime(), scenario: `${count} UAVs`, start_utime: 1.7e15, origin: kOrigin, vehicles });
       setInterval(() => binary(motion()), count > 100 ? 200 : 100);
-      setInterval(() => [17, 18].forEach((words) => binary(status(words))), 500);
+      setInterval(() => binary(status()), 500);
       let next = 0;
       // Each formation five times a second, spread out as on a bus.
       setInterval(() => {

@@ -111,9 +111,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
     case kMotionKind:
       return payload_bytes === count * kMotionBytesEach ? motionFrame(common, columns) : null;
     case kStatusKind:
-      // A bridge of yesterday says nothing of level_with_id.
-      if (payload_bytes === count * (kStatusBytesEach - 4)) return statusFrame(common, columns, false);
-      return payload_bytes === count * kStatusBytesEach ? statusFrame(common, columns, true) : null;
+      return payload_bytes === count * kStatusBytesEach ? statusFrame(common, columns) : null;
     default:
       return null;
   }
@@ -136,7 +134,7 @@ function motionFrame(header: FrameHeader, columns: Columns): MotionFrame {
   };
 }
 
-function statusFrame(header: FrameHeader, columns: Columns, with_level: boolean): StatusFrame {
+function statusFrame(header: FrameHeader, columns: Columns): StatusFrame {
   return {
     ...header,
     kind: "status",
@@ -150,7 +148,7 @@ function statusFrame(header: FrameHeader, columns: Columns, with_level: boolean)
     nearest_vertical_m: columns.f32(),
     tau_id: columns.i32(),
     tau_s: columns.f32(),
-    level_with_id: with_level ? columns.i32() : new Int32Array(header.count),
+    level_with_id: columns.i32(),
     downlink_age_s: columns.f32(),
     uplink_age_s: columns.f32(),
     estimated_east_m: columns.f32(),
