@@ -60,7 +60,10 @@ int ControlDesk::Enter(const Introduction& introduction, Time now) {
   } else {
     number = ++last_number_;
     people_[number] = {UniqueName(introduction.name, number),
-                       NewToken(),
+                       // One that the tab made up itself is known even if it is reloaded before any answer has come.
+                       known == people_.end() && introduction.token.size() >= kLeastTokenSize
+                           ? introduction.token
+                           : NewToken(),
                        introduction.page,
                        introduction.may_operate,
                        std::nullopt,

@@ -14,7 +14,7 @@ namespace skein::bridge {
 /// How somebody at the page introduces himself.
 struct Introduction {
   std::string name{};       ///< "": the desk finds one
-  std::string token{};      ///< that an earlier connection of the same tab was given, "" when there is none
+  std::string token{};      ///< that the same tab had before or made up, "" when there is none
   std::string page{};       ///< made up by the page each time it is loaded
   bool take = true;         ///< control, when it is free
   bool may_operate = true;  ///< else he may only look
@@ -44,6 +44,8 @@ class ControlDesk {
   static constexpr std::chrono::seconds kGrace{10};
   static constexpr std::chrono::seconds kPatience{15};
   static constexpr std::size_t kLongestName = 40;  ///< characters
+  /// A token of a browser's own making counts from this length on: nobody guesses it.
+  static constexpr std::size_t kLeastTokenSize = 32;
 
   explicit ControlDesk(Tell tell) : tell_(std::move(tell)) {}
 

@@ -130,6 +130,17 @@ TEST_F(ControlDeskTest, AHolderWhoseConnectionDropsIsWaitedForTenSeconds) {
   EXPECT_NE(desk_.Enter({.name = "Ada", .token = token, .take = false}, now_), ada);
 }
 
+TEST_F(ControlDeskTest, ATabThatIsReloadedBeforeAnyAnswerCameIsKnownByTheTokenItMadeUp) {
+  const std::string token(ControlDesk::kLeastTokenSize, 'a');
+  const int ada = desk_.Enter({.name = "Ada", .token = token, .page = "p1"}, now_);
+  EXPECT_EQ(TokenOf(ada), token);
+  desk_.Leave(ada, now_);
+  EXPECT_EQ(desk_.Enter({.name = "Ada", .token = token, .page = "p2"}, now_), ada);
+
+  const int bob = desk_.Enter({.name = "Bob", .token = "guess me", .page = "p3"}, now_);
+  EXPECT_NE(TokenOf(bob), "guess me");
+}
+
 TEST_F(ControlDeskTest, ADuplicatedTabIsSomebodyElse) {
   const int first = desk_.Enter({.name = "Ada", .page = "p1"}, now_);
   const int copy = desk_.Enter({.name = "Ada", .token = TokenOf(first), .page = "p2"}, now_);

@@ -36,12 +36,14 @@ export class Control {
     const take = !view_only.value && (!this.joined || youHold(control.value));
     this.joined = true;
     const [name, token] = [person_name.value, readToken()];
+    // Kept before the bridge has answered: a page that is reloaded at once is the same person.
+    writeToken(token);
     void this.commands.control({
       action: "join",
       page: this.page,
       take,
+      token,
       ...(name === "" ? {} : { name }),
-      ...(token === "" ? {} : { token }),
     });
   }
 
@@ -94,9 +96,9 @@ function randomText(): string {
 
 function readToken(): string {
   try {
-    return sessionStorage.getItem(kTokenKey) ?? "";
+    return sessionStorage.getItem(kTokenKey) ?? randomText();
   } catch {
-    return "";
+    return randomText();
   }
 }
 

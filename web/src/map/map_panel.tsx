@@ -66,7 +66,7 @@ export function MapPanel({ station, freeArea }: MapPanelProps) {
     on("n", "Select the next UAV", (m) => {
       m.selectNext(1);
     }),
-    on("p", "Select the previous UAV", (m) => {
+    on("Shift+n", "Select the previous UAV", (m) => {
       m.selectNext(-1);
     }),
     on("Escape", "Leave the map's tool, or select nothing", (m) => {
