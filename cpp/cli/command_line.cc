@@ -132,11 +132,13 @@ void CommandLine::AddScenario() {
   });
   CLI::App* load = group->add_subcommand("load", "Fly another scenario, from its start");
   load->add_option("name", scenario_, "As `list` names it, never a path")->required();
-  const auto start = [this] {
+  load->callback([this] {
     command_ = [this](Station& station, std::ostream& out) { StartScenario(station, scenario_, out); };
-  };
-  load->callback(start);
-  group->add_subcommand("restart", "Fly the same scenario again, from its start")->callback(start);
+  });
+  CLI::App* restart = group->add_subcommand("restart", "Fly the same scenario again, from its start");
+  restart->callback([this] {
+    command_ = [](Station& station, std::ostream& out) { StartScenario(station, std::nullopt, out); };
+  });
 }
 
 void CommandLine::AddStatus() {

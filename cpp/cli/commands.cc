@@ -229,11 +229,11 @@ void ListScenarios(std::ostream& out) {
   }
 }
 
-void StartScenario(Station& station, const std::string& name, std::ostream& out) {
+void StartScenario(Station& station, const std::optional<std::string>& name, std::ostream& out) {
   const bus::Utime before = station.Roster().start_utime;
   simulation_command_t command;
-  command.action = name.empty() ? simulation_command_t::ACTION_RESTART : simulation_command_t::ACTION_LOAD;
-  command.scenario = name;
+  command.action = name ? simulation_command_t::ACTION_LOAD : simulation_command_t::ACTION_RESTART;
+  command.scenario = name.value_or("");
   command.seed = 0;
   const std::string remark = station.Ask(channel::kCmdSimulation, command, kSimulator);
   const auto started = [&] { return station.picture().roster->start_utime != before; };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -44,8 +45,8 @@ void ClearPath(Station& station, int id, std::ostream& out);
 
 /// Those that this machine finds by name.
 void ListScenarios(std::ostream& out);
-/// The simulated fleet starts anew: with the same scenario when `name` is "".
-void StartScenario(Station& station, const std::string& name, std::ostream& out);
+/// The simulated fleet starts anew, with the same scenario when none is named.
+void StartScenario(Station& station, const std::optional<std::string>& name, std::ostream& out);
 
 struct StatusOptions {
   bool watch = false;
