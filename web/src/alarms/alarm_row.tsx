@@ -66,34 +66,35 @@ export function AlarmRow({ station, list, alarm }: AlarmRowProps) {
           .map((id) => (
             <VehicleChip key={id} station={station} id={id} />
           ))}
-        <span class="grow" />
-        {alarm.state < kShelved && (
-          <button
-            type="button"
-            class="button"
-            aria-expanded={shelving.value}
-            title="Put this alarm away for a time"
-            onClick={() => {
-              shelving.value = !shelving.value;
-            }}
-          >
-            Shelve
-          </button>
-        )}
-        {flashes && (
-          <CommandButton
-            class="button acknowledge"
-            label={`Acknowledge: ${alarm.text} (Enter or A)`}
-            command={send(acknowledge(list, alarm))}
-          >
-            Acknowledge
-          </CommandButton>
-        )}
-        {alarm.state === kShelved && (
-          <CommandButton label={`Unshelve: ${alarm.text}`} command={send(unshelve(list, alarm))}>
-            Unshelve
-          </CommandButton>
-        )}
+        <span class="alarm-buttons">
+          {alarm.state < kShelved && (
+            <button
+              type="button"
+              class="button"
+              aria-expanded={shelving.value}
+              title="Put this alarm away for a time"
+              onClick={() => {
+                shelving.value = !shelving.value;
+              }}
+            >
+              Shelve
+            </button>
+          )}
+          {flashes && (
+            <CommandButton
+              class="button acknowledge"
+              label={`Acknowledge: ${alarm.text} (Enter or A)`}
+              command={send(acknowledge(list, alarm))}
+            >
+              Acknowledge
+            </CommandButton>
+          )}
+          {alarm.state === kShelved && (
+            <CommandButton label={`Unshelve: ${alarm.text}`} command={send(unshelve(list, alarm))}>
+              Unshelve
+            </CommandButton>
+          )}
+        </span>
       </div>
       {shelving.value && alarm.state < kShelved && (
         <div class="alarm-shelves" role="group" aria-label="Shelve for">
