@@ -220,9 +220,11 @@ test("when the bridge goes the page says so, greys out, and comes back by itself
 
 test("a command that nobody obeys is refused beside its button", async () => {
   explain();
+  // The bridge has been started anew: it has to hear of the simulator first.
+  await screen.button("Cut the link of UAV1").waitFor();
   await station.stop("fleet-simulator");
   await screen.button("Cut the link of UAV1").click();
-  const refusal = screen.page.getByRole("alert");
+  const refusal = screen.page.locator(".refusal");
   await refusal.waitFor({ timeout: 10_000 });
   expect(await refusal.innerText()).toMatch(/answered CMD_LINK within 2 s/);
   await until(async () => expect(await screen.text(".banner")).toContain("No telemetry for"), 10_000);

@@ -117,7 +117,7 @@ test("typed ids select; the map and the charts follow, and nonsense is answered 
   await until(async () => expect(await selected()).toEqual([1, 2, 3, 9]));
   await range.fill("3-1");
   await range.press("Enter");
-  await until(async () => expect(await screen.page.getByRole("alert").innerText()).toContain("write 1-3"));
+  await until(async () => expect(await screen.page.locator(".problem").innerText()).toContain("write 1-3"));
   await range.fill("");
   await screen.page.getByRole("tab", { name: "Charts" }).click();
   await until(async () =>
