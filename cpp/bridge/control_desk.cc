@@ -59,15 +59,12 @@ int ControlDesk::Enter(const Introduction& introduction, Time now) {
     if (!introduction.name.empty()) known->second.name = UniqueName(introduction.name, number);
   } else {
     number = ++last_number_;
-    people_[number] = {UniqueName(introduction.name, number),
-                       // One that the tab made up itself is known even if it is reloaded before any answer has come.
-                       known == people_.end() && introduction.token.size() >= kLeastTokenSize
-                           ? introduction.token
-                           : NewToken(),
-                       introduction.page,
-                       introduction.may_operate,
-                       std::nullopt,
-                       std::nullopt};
+    people_[number] = {
+        UniqueName(introduction.name, number),
+        // One that the tab made up itself is known even if it is reloaded before any answer has come.
+        known == people_.end() && introduction.token.size() >= kLeastTokenSize ? introduction.token
+                                                                               : NewToken(),
+        introduction.page, introduction.may_operate, std::nullopt, std::nullopt};
   }
   if (introduction.take && holder_ == 0 && introduction.may_operate) Take(number, now);
   return number;

@@ -129,7 +129,8 @@ void LinkSchedule::Make(std::size_t index, const LinkChange& change, bus::Utime 
   const Settings before{vehicle.uplink(), vehicle.downlink()};
   Settings after;
   if (change.uplink) after.uplink = Changed(*before.uplink, at_start_[index].uplink, *change.uplink);
-  if (change.downlink) after.downlink = Changed(*before.downlink, at_start_[index].downlink, *change.downlink);
+  if (change.downlink)
+    after.downlink = Changed(*before.downlink, at_start_[index].downlink, *change.downlink);
   Set(index, after);
   if (change.duration_s > 0) {
     // A direction that this change left alone, or that another one changes meanwhile, is not set back.
