@@ -72,8 +72,7 @@ ExperimentOptions OptionsOf(const FlightPicture& picture) {
 /// A picture that goes on, and what it is about.
 class FlightAhead {
  public:
-  explicit FlightAhead(const FlightPicture& picture)
-      : picture_(picture), experiment_(ScenarioOf(picture), OptionsOf(picture)) {
+  explicit FlightAhead(const FlightPicture& picture) : experiment_(ScenarioOf(picture), OptionsOf(picture)) {
     experiment_.operator_bus().Subscribe<ack_t>(bus::channel::kAck, [this](const ack_t& ack) { ack_ = ack; });
     // The controller is in the picture when it commands somebody.
     for (int step = 0; step < kMostLeadingSteps && !commands_; ++step) Step();
@@ -107,7 +106,6 @@ class FlightAhead {
   }
 
  private:
-  const FlightPicture& picture_;
   Experiment experiment_;
   std::optional<ack_t> ack_;
   const Tick* tick_ = nullptr;

@@ -55,6 +55,20 @@ async function middleOf(number: number): Promise<[number, number]> {
   return [box.x + box.width / 2, box.y + box.height / 2];
 }
 
+/** The same once the map has come to rest: what is grabbed must still be there. */
+async function restOf(number: number): Promise<[number, number]> {
+  let rest = await middleOf(number);
+  await until(async () => {
+    const before = rest;
+    await screen.page.evaluate(
+      () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
+    );
+    rest = await middleOf(number);
+    expect(rest).toEqual(before);
+  });
+  return rest;
+}
+
 /** A picture with the whole path on the map. */
 async function look(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
   await screen.page.setViewportSize({ width, height });
@@ -102,13 +116,15 @@ test("three clicks are three waypoints, and the arcs between them are shown as t
 
 test("a waypoint is dragged, one inserted, one deleted; every step is undone and done again", async () => {
   explain();
-  const at = await middleOf(3);
+  const at = await restOf(3);
   await screen.page.mouse.move(...at);
   await screen.page.mouse.down();
   await screen.page.mouse.move(at[0] - 60, at[1] + 15, { steps: 4 });
   await screen.page.mouse.up();
-  const [x, y] = await middleOf(3);
-  expect(Math.hypot(x - at[0] + 60, y - at[1] - 15)).toBeLessThan(3);
+  await until(async () => {
+    const [x, y] = await middleOf(3);
+    expect(Math.hypot(x - at[0] + 60, y - at[1] - 15)).toBeLessThan(3);
+  });
 
   await screen.button("Insert a waypoint between 2 and 3").click();
   await until(async () => expect(await rows().count()).toBe(4));
