@@ -14,6 +14,7 @@ import { SlotCanvas } from "./slot_canvas";
 import { SlotTable } from "./slot_table";
 import { flownInWords } from "./words";
 import "./formation.css";
+import "./law_and_apply.css";
 
 /** The paper's formation setting: a draft is edited, flown ahead, and applied. */
 export function FormationPanel({ station }: PanelProps) {
