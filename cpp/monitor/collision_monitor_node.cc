@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <iterator>
 #include <skein/event_t.hpp>
 #include <skein/formation_t.hpp>
 #include <skein/link_status_t.hpp>
@@ -69,6 +70,7 @@ CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitor
     : bus_(bus),
       events_(bus),
       alarms_(bus, events_),
+      link_alarms_(alarms_),
       silence_(bus, alarms_),
       options_((Check(options), options)),
       membership_(bus.executor().Now(), options.strangers, options.formations),
@@ -96,7 +98,7 @@ void CollisionMonitorNode::StartFlight(const fleet_roster_t& roster) {
   if (!TakeScenario(roster.scenario, again) && !again) return;
   // Nothing of what was in the air before is there any more.
   const Utime now = bus_.executor().Now();
-  for (const auto& [id, uav] : uavs_) alarms_.End(uav.alarm_key());
+  for (const auto& [id, uav] : uavs_) link_alarms_.Forget(uav);
   for (const PairAlert& pair : levels_.active()) alarms_.End(AlarmKey(pair));
   uavs_.clear();
   levels_ = AlertLevels();
@@ -130,7 +132,7 @@ void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_
   if (missing_chunks == 0) {
     std::erase_if(uavs_, [&](const auto& uav) {
       if (!uav.second.in_roster() || listed.contains(uav.first)) return false;
-      alarms_.End(uav.second.alarm_key());
+      link_alarms_.Forget(uav.second);
       return true;
     });
   }
@@ -142,6 +144,7 @@ void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_
 
 void CollisionMonitorNode::HearState(const fleet_state_t& state) {
   const Utime now = bus_.executor().Now();
+  link_alarms_.HearFleet(now);
   std::vector<Notice> notices;
   for (const vehicle_state_t& vehicle : state.vehicles) {
     const auto uav = uavs_
@@ -174,18 +177,14 @@ void CollisionMonitorNode::CheckLinks() {
     WatchedUav::Judgement judgement = uav.Judge(now);
     changed = changed || judgement.changed;
     if (!uav.in_roster() && uav.watch().downlink() == LinkState::kLost) {
-      alarms_.End(uav.alarm_key());
+      link_alarms_.Forget(uav);
       entry = uavs_.erase(entry);
       continue;
     }
-    if (judgement.alarm) {
-      alarms_.Raise(*judgement.alarm);
-    } else if (judgement.changed) {
-      alarms_.End(uav.alarm_key());
-    }
-    std::move(judgement.notices.begin(), judgement.notices.end(), std::back_inserter(notices));
+    std::ranges::move(link_alarms_.Take(now, uav, std::move(judgement)), std::back_inserter(notices));
     ++entry;
   }
+  if (auto notice = link_alarms_.Look(now, uavs_.size())) notices.push_back(std::move(*notice));
   if (changed || now - links_sent_ >= kLinkStatusPeriod) PublishLinks(now);
   Tell(std::move(notices));
 }

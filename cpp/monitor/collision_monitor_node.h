@@ -14,6 +14,7 @@
 #include "bus/events.h"
 #include "core/alert_levels.h"
 #include "monitor/alarm_desk.h"
+#include "monitor/link_alarms.h"
 #include "monitor/membership.h"
 #include "monitor/silence_watch.h"
 #include "monitor/watched_uav.h"
@@ -67,6 +68,7 @@ class CollisionMonitorNode {
   bus::Bus& bus_;
   bus::Events events_;
   AlarmDesk alarms_;
+  LinkAlarms link_alarms_;
   SilenceWatch silence_;
   CollisionMonitorOptions options_;
   Membership membership_;

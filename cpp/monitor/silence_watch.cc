@@ -2,7 +2,6 @@
 
 #include <spdlog/fmt/fmt.h>
 
-#include <skein/fleet_state_t.hpp>
 #include <skein/heartbeat_t.hpp>
 
 #include "bus/channels.h"
@@ -29,24 +28,18 @@ SilenceWatch::SilenceWatch(bus::Bus& bus, AlarmDesk& alarms) : bus_(bus), alarms
     const std::string& node = heartbeat.heartbeat_node;
     if (nodes_.size() < kMostNodes || nodes_.contains(node)) nodes_[node] = bus_.executor().Now();
   });
-  bus.Subscribe<fleet_state_t>(bus::channel::kFleetState,
-                               [this](const fleet_state_t&) { fleet_ = bus_.executor().Now(); });
   bus.executor().Every(kLookPeriod, [this] { Look(); });
 }
 
 void SilenceWatch::Look() {
   const bus::Utime now = bus_.executor().Now();
-  const auto judge = [&](bus::Utime heard, const AlarmCondition& silence) {
+  for (const auto& [node, heard] : nodes_) {
+    const AlarmCondition silence = NodeSilent(node);
     if (now - heard >= kSilentAfter) {
       alarms_.Raise(silence);
     } else {
       alarms_.End(silence.key);
     }
-  };
-  for (const auto& [node, heard] : nodes_) judge(heard, NodeSilent(node));
-  if (fleet_) {
-    judge(*fleet_, {"fleet_silent", AlertLevel::kWarning,
-                    "no telemetry from any UAV: the source of FLEET_STATE has fallen silent"});
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <string>
 
 #include "bus/bus.h"
@@ -9,8 +8,8 @@
 
 namespace skein::monitor {
 
-/// Raises alarms when a node (HEARTBEAT) or the source of the fleet (FLEET_STATE) falls silent. What was
-/// never heard is not missed: a station may do without it.
+/// Raises alarms when a node (HEARTBEAT) falls silent. What was never heard is not missed: a station may do
+/// without it.
 class SilenceWatch {
  public:
   SilenceWatch(bus::Bus& bus, AlarmDesk& alarms);
@@ -21,7 +20,6 @@ class SilenceWatch {
   bus::Bus& bus_;
   AlarmDesk& alarms_;
   std::map<std::string, bus::Utime> nodes_;  ///< when last heard
-  std::optional<bus::Utime> fleet_;          ///< likewise
 };
 
 }  // namespace skein::monitor

@@ -41,6 +41,22 @@ std::string WatchedUav::DownlinkFault(bus::Utime now) const {
   return fmt::format("nothing heard for {:.1f} s", age_s);
 }
 
+std::string WatchedUav::UplinkFault() const {
+  return fmt::format("commands not obeyed for {:.1f} s", bus::ToSeconds(watch_.uplink_age_us().value_or(0)));
+}
+
+std::vector<Notice> WatchedUav::Fault(bus::Utime now) const {
+  for (const LinkState bad : {LinkState::kLost, LinkState::kLate}) {
+    if (downlink_ != bad && uplink_ != bad) continue;
+    const bool lost = bad == LinkState::kLost;
+    const bool down = downlink_ == bad;
+    return {Tell(lost ? event_t::WARNING : event_t::INFO, lost ? "link_lost" : "link_late",
+                 fmt::format("{} of {} {}: {}", down ? "link" : "uplink", callsign_, lost ? "lost" : "late",
+                             down ? DownlinkFault(now) : UplinkFault()))};
+  }
+  return {};
+}
+
 WatchedUav::Judgement WatchedUav::Judge(bus::Utime now) {
   const LinkState downlink_before = std::exchange(downlink_, (watch_.Check(now), watch_.downlink()));
   const LinkState uplink_before = std::exchange(uplink_, watch_.uplink());
@@ -53,34 +69,26 @@ WatchedUav::Judgement WatchedUav::Judge(bus::Utime now) {
   if (!judgement.changed) return judgement;
 
   const bus::Utime uplink_age = watch_.uplink_age_us().value_or(0);
-  const auto disobeys = [&] {
-    return fmt::format("commands not obeyed for {:.1f} s", bus::ToSeconds(uplink_age));
-  };
 
   if (became(LinkState::kLost, true)) {
     if (!bad_since_) bad_since_ = now - watch_.downlink_age_us(now).value_or(0);
-    judgement.notices.push_back(Tell(event_t::WARNING, "link_lost",
-                                     fmt::format("link of {} lost: {}", callsign_, DownlinkFault(now))));
+    judgement.notices = Fault(now);
   } else if (became(LinkState::kLost, false) && downlink_ != LinkState::kLost) {
     if (!bad_since_) bad_since_ = now - uplink_age;
-    judgement.notices.push_back(
-        Tell(event_t::WARNING, "link_lost", fmt::format("uplink of {} lost: {}", callsign_, disobeys())));
+    judgement.notices = Fault(now);
   } else if (downlink_before == LinkState::kLost && uplink_ == LinkState::kLost && uplink_age > kObeysAgain &&
              downlink_ != LinkState::kLost) {
     judgement.notices.push_back(
         Tell(event_t::WARNING, "link_lost",
-             fmt::format("downlink of {} is back, but not its uplink: {}", callsign_, disobeys())));
+             fmt::format("downlink of {} is back, but not its uplink: {}", callsign_, UplinkFault())));
   } else if (bad_since_ && !watch_.lost()) {
     judgement.notices.push_back(Tell(
         event_t::INFO, "link_restored",
         fmt::format("link of {} restored after {:.1f} s", callsign_, bus::ToSeconds(now - *bad_since_))));
     bad_since_.reset();
-  } else if (became(LinkState::kLate, true)) {
-    judgement.notices.push_back(
-        Tell(event_t::INFO, "link_late", fmt::format("link of {} late: {}", callsign_, DownlinkFault(now))));
-  } else if (became(LinkState::kLate, false) && downlink_ == LinkState::kUp) {
-    judgement.notices.push_back(
-        Tell(event_t::INFO, "link_late", fmt::format("uplink of {} late: {}", callsign_, disobeys())));
+  } else if (!watch_.lost() && (became(LinkState::kLate, true) ||
+                                (became(LinkState::kLate, false) && downlink_ == LinkState::kUp))) {
+    judgement.notices = Fault(now);
   }
   judgement.alarm = LinkAlarm(judgement.notices);
   return judgement;

@@ -47,13 +47,18 @@ class WatchedUav {
 
   const LinkWatch& watch() const { return watch_; }
 
+  /// What is wrong with its link now, as of the last judgement; empty: nothing.
+  std::vector<Notice> Fault(bus::Utime now) const;
+  /// For a link that is late or lost, with the words of the notices about it; none: it is neither.
+  std::optional<AlarmCondition> LinkAlarm(const std::vector<Notice>& notices) const;
+
   /// Where it is now; none: never heard. A UAV that is not heard has an uncertainty.
   std::optional<Estimate> Locate(bus::Utime now, const UncertaintyGrowth& growth) const;
 
  private:
-  std::optional<AlarmCondition> LinkAlarm(const std::vector<Notice>& notices) const;  ///< none: in order
   Notice Tell(std::int8_t severity, std::string code, std::string text) const;
   std::string DownlinkFault(bus::Utime now) const;
+  std::string UplinkFault() const;
 
   int id_;
   std::string callsign_;

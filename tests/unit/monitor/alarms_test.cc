@@ -231,6 +231,55 @@ TEST_F(MonitorAlarms, TellThatTheSourceOfTheFleetIsSilent) {
   EXPECT_EQ(StateOf("fleet_silent"), kEnded);
 }
 
+TEST_F(MonitorAlarms, AreOneWhenTheSourceOfAHundredLinksIsSilent) {
+  for (int id = 4; id <= 100; ++id) fleet_.Add(id, 0, 2000.0 * id, 1000);
+  Start();
+  Run(10);
+  fleet_.telemetry = false;
+  Run(30);
+  ASSERT_EQ(lists_.back().alarms.size(), 1u);
+  EXPECT_EQ(lists_.back().alarms[0].text,
+            "no telemetry from any of 100 UAVs: the source of FLEET_STATE has fallen silent");
+  EXPECT_EQ(heard_.Link(50)->downlink, link_status_t::LINK_LOST) << "it is told as one, and known of each";
+  EXPECT_EQ(heard_.events.size(), 1u);
+  EXPECT_EQ(heard_.Events("fleet_silent").size(), 1u);
+
+  SetLink(3, false);
+  fleet_.telemetry = true;
+  Run(6);
+  EXPECT_EQ(StateOf("fleet_silent"), kEnded);
+  EXPECT_EQ(StateOf("link:3"), kUnacknowledged) << "the fleet is back, and this one is not";
+  EXPECT_EQ(Find("link:3")->severity, event_t::WARNING);
+  EXPECT_EQ(Find("link:3")->text.substr(0, 39), "link of UAV3 lost: nothing heard for 34");
+  EXPECT_EQ(lists_.back().alarms.size(), 2u);
+  EXPECT_EQ(heard_.Events("link_lost").size(), 1u);
+  EXPECT_TRUE(heard_.Events("link_restored").empty()) << "whose loss was not told";
+
+  SetLink(3, true);
+  Run(6);
+  EXPECT_EQ(StateOf("link:3"), kEnded);
+  EXPECT_EQ(heard_.Events("link_restored").size(), 1u);
+}
+
+TEST_F(MonitorAlarms, OfALinkThatWasToldBeforeTheFleetFellSilentStay) {
+  Start();
+  Run(10);
+  SetLink(3, false);
+  Run(3);
+  EXPECT_EQ(Find("link:3")->severity, event_t::CAUTION);
+  fleet_.telemetry = false;
+  Run(10);
+  EXPECT_EQ(Find("link:3")->severity, event_t::WARNING);
+  EXPECT_EQ(StateOf("link:2"), -1);
+  SetLink(3, true);
+  fleet_.telemetry = true;
+  Run(6);
+  EXPECT_EQ(StateOf("link:3"), kEnded);
+  SetLink(2, false);
+  Run(3);
+  EXPECT_EQ(Find("link:2")->severity, event_t::CAUTION) << "one by one again";
+}
+
 TEST_F(MonitorAlarms, OfAThousandUavsAreCountedButNotAllListed) {
   for (int id = 4; id <= 1000; ++id) fleet_.Add(id, 0, 2000.0 * id, 1000);
   Start();

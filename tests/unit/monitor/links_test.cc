@@ -228,7 +228,9 @@ TEST_F(MonitorLinks, SilenceOfTheWholeBusIsNoticedToo) {
   Run(20);
   fleet_.telemetry = false;
   Run(5);
-  EXPECT_EQ(heard_.Events("link_lost").size(), 3u);
+  for (const int id : {1, 2, 3}) EXPECT_EQ(heard_.Link(id)->downlink, kLost);
+  EXPECT_EQ(heard_.Events("fleet_silent").size(), 1u);
+  EXPECT_TRUE(heard_.Events("link_lost").empty()) << "one cause, one event";
 }
 
 }  // namespace
