@@ -1,5 +1,7 @@
 #include "bridge/json_messages.h"
 
+#include "bus/alarm_json.h"
+
 namespace skein::bridge {
 namespace {
 
@@ -39,23 +41,6 @@ Json SlotStatus(const slot_status_t& slot) {
           {"slot_north_m", slot.slot_north_m},       {"slot_up_m", slot.slot_up_m},
           {"forward_error_m", slot.forward_error_m}, {"left_error_m", slot.left_error_m},
           {"up_error_m", slot.up_error_m},           {"flown", slot.flown != 0}};
-}
-
-Json OneAlarm(const alarm_t& alarm) {
-  return {{"id", alarm.id},
-          {"condition", alarm.condition},
-          {"severity", alarm.severity},
-          {"state", alarm.state},
-          {"vehicle_id", alarm.vehicle_id},
-          {"other_vehicle_id", alarm.other_vehicle_id},
-          {"formation_id", alarm.formation_id},
-          {"text", alarm.text},
-          {"raised_utime", alarm.raised_utime},
-          {"cleared_utime", alarm.cleared_utime},
-          {"acknowledged_utime", alarm.acknowledged_utime},
-          {"acknowledged_by", alarm.acknowledged_by},
-          {"shelved_until_utime", alarm.shelved_until_utime},
-          {"shelved_by", alarm.shelved_by}};
 }
 
 Json Point(const waypoint_t& point) {
@@ -165,7 +150,7 @@ Json ToJson(const alarm_list_t& list) {
           {"num_unacknowledged_cautions", list.num_unacknowledged_cautions},
           {"num_unacknowledged_advisories", list.num_unacknowledged_advisories},
           {"num_not_listed", list.num_not_listed},
-          {"alarms", Each(list.alarms, OneAlarm)}};
+          {"alarms", Each(list.alarms, [](const alarm_t& alarm) { return bus::ToJson(alarm); })}};
 }
 
 Json ToJson(const path_t& path) {

@@ -9,6 +9,7 @@
 #include <skein/alarm_command_t.hpp>
 #include <string_view>
 
+#include "bus/alarm_json.h"
 #include "bus/channels.h"
 #include "cli/text_table.h"
 
@@ -47,23 +48,6 @@ std::string State(const alarm_t& alarm, bus::Utime now) {
 
 std::string Ago(bus::Utime utime, bus::Utime now) {
   return fmt::format("{:.0f} s ago", bus::ToSeconds(now - utime));
-}
-
-nlohmann::ordered_json ToJson(const alarm_t& alarm) {
-  return {{"id", alarm.id},
-          {"condition", alarm.condition},
-          {"severity", alarm.severity},
-          {"state", alarm.state},
-          {"vehicle_id", alarm.vehicle_id},
-          {"other_vehicle_id", alarm.other_vehicle_id},
-          {"formation_id", alarm.formation_id},
-          {"text", alarm.text},
-          {"raised_utime", alarm.raised_utime},
-          {"cleared_utime", alarm.cleared_utime},
-          {"acknowledged_utime", alarm.acknowledged_utime},
-          {"acknowledged_by", alarm.acknowledged_by},
-          {"shelved_until_utime", alarm.shelved_until_utime},
-          {"shelved_by", alarm.shelved_by}};
 }
 
 alarm_command_t Command(const alarm_list_t& list, std::int8_t action) {
@@ -105,7 +89,7 @@ void ShowAlarms(Station& station, const AlarmsOptions& options, std::ostream& ou
   Table table = {{"id", "severity", "state", "raised", "alarm"}};
   for (const alarm_t& alarm : list.alarms) {
     if (alarm.state == alarm_t::OVER && !options.history) continue;
-    json.push_back(ToJson(alarm));
+    json.push_back(bus::ToJson(alarm));
     table.push_back({std::to_string(alarm.id),
                      std::string(kSeverities.at(static_cast<std::size_t>(alarm.severity))),
                      State(alarm, list.utime), Ago(alarm.raised_utime, list.utime), alarm.text});
