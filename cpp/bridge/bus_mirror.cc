@@ -9,6 +9,7 @@
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
+#include "config/scenario.h"
 #include "controller/fleet_picture.h"
 
 namespace skein::bridge {
@@ -65,6 +66,10 @@ void BusMirror::Hear(const fleet_roster_t& roster) {
   if (same_session && roster.revision == roster_.revision) return;
   if (!same_session) StartAnew();
   if (roster.start_utime != roster_.start_utime) history_.Clear();
+  if (!same_session || roster.scenario != roster_.scenario) {
+    const auto scenario = config::ReadScenarioOfFleet(roster.scenario, {}).value_or(config::Scenario());
+    airspace_ = {scenario.ceiling_m, scenario.strangers};
+  }
   roster_ = roster;
   fleet_.Take(roster.vehicles);
   roster_shown_ = ToJson(roster);
@@ -251,6 +256,8 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
 experiment::FlightPicture BusMirror::Picture() const {
   experiment::FlightPicture picture;
   picture.utime = state_utime_;
+  picture.ceiling_m = airspace_.ceiling_m;
+  picture.strangers = airspace_.strangers;
   for (const auto& [id, row] : fleet_.rows()) {
     if (!row.info) continue;
     experiment::FlightPicture::Vehicle vehicle{*row.info, std::nullopt, false};

@@ -63,6 +63,11 @@ class BusMirror {
     Json shown;
     bus::Utime heard_at = 0;
   };
+  /// What only the scenario tells, read when its name is heard in a roster.
+  struct Airspace {
+    double ceiling_m = 1e9;
+    ProximityLimits strangers = StrangerLimits();
+  };
   struct DrawnPath {
     path_t message;
     Json shown;
@@ -104,6 +109,7 @@ class BusMirror {
   History history_;
   fleet_roster_t roster_{};
   Json roster_shown_;  ///< null: none yet
+  Airspace airspace_;
   bus::Utime state_utime_ = 0;
   std::map<std::int32_t, Repeated> formations_;
   std::map<std::int32_t, Json> statuses_;

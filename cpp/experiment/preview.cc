@@ -30,6 +30,8 @@ constexpr int kMostLeadingSteps = 1'000;
 config::Scenario ScenarioOf(const FlightPicture& picture) {
   config::Scenario scenario;
   scenario.name = "preview";
+  scenario.ceiling_m = picture.ceiling_m;
+  scenario.strangers = picture.strangers;
   for (const FlightPicture::Vehicle& from : picture.vehicles) {
     config::VehicleConfig vehicle;
     vehicle.id = from.info.id;
@@ -122,6 +124,7 @@ struct Members {
 
 Members MembersAfter(const FlightPicture& picture, const formation_t& changed) {
   Members members;
+  members.rules.strangers = picture.strangers;
   const auto add = [&](const formation_t& formation) {
     for (const slot_t& slot : formation.slots) members.formation_of[slot.vehicle_id] = formation.formation_id;
     members.rules.formations[formation.formation_id] = bus::ToProximityLimits(formation);

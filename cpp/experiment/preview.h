@@ -11,6 +11,7 @@
 #include "bus/executor.h"
 #include "controller/state_file.h"
 #include "core/path.h"
+#include "core/proximity.h"
 #include "experiment/preview_watch.h"
 #include "experiment/track.h"
 
@@ -27,6 +28,9 @@ struct FlightPicture {
   std::vector<Vehicle> vehicles;
   /// As the controller tells them on the bus.
   std::vector<controller::FormationState> formations;
+  /// Of the scenario; what is on the bus does not tell them.
+  double ceiling_m = 1e9;
+  ProximityLimits strangers = StrangerLimits();
 };
 
 struct PreviewOptions {

@@ -77,6 +77,36 @@ TEST(PreviewFormation, ComesAsNearAsTheSameEditThenDoes) {
   }
 }
 
+TEST(PreviewFormation, KeepsStrangersApartByTheScenariosCylinder) {
+  CapturedFlight flight("crossing.json");
+  flight.FlyUntil(20);
+  FlightPicture picture = flight.Picture();
+  const formation_t formation = flight.flights.at(1).formation;
+  const auto worst = [&] { return PreviewFormation(picture, formation, {}).nearest.at(0).cylinders; };
+  const double usual = worst();
+  picture.strangers.radius_m *= 2;
+  picture.strangers.d_mod_m *= 2;
+  picture.strangers.height_m *= 2;
+  EXPECT_NEAR(worst(), usual / 2, 1e-6);
+}
+
+TEST(PreviewFormation, ClimbsNoHigherThanTheCeiling) {
+  CapturedFlight flight("triangle.json");
+  flight.FlyUntil(80);
+  FlightPicture picture = flight.Picture();
+  picture.vehicles[2].lost = true;
+  const double up_m = picture.vehicles[0].state->up_m;
+  const auto highest_m = [&] {
+    const Preview preview = PreviewFormation(picture, flight.flights.at(1).formation, {60, {}});
+    double highest = 0;
+    for (const TrackPoint& point : TrackOf(preview, 1).points) highest = std::max(highest, point.position.z());
+    return highest;
+  };
+  EXPECT_GT(highest_m(), up_m + 150);
+  picture.ceiling_m = up_m + 60;
+  EXPECT_LT(highest_m(), up_m + 65);
+}
+
 TEST(PreviewFormation, FindsThatUavsWhoChangePlacesMeet) {
   CapturedFlight flight("triangle.json");
   flight.FlyUntil(80);
