@@ -1,8 +1,10 @@
+import { effect, untracked } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { Lamp } from "../panels/icons";
 import { showSide } from "../shell/layout";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { useShortcuts } from "../shell/shortcuts";
+import { inChosenUnits } from "../units/station_text";
 import { countsOf, countsText, groupsOf, kSeverityNames, wantsAcknowledgement } from "./alarm_list";
 import "./alarms.css";
 import { whyNoAlarms } from "./service";
@@ -14,8 +16,13 @@ export function AlarmBadges({ station }: PanelProps) {
   const { store } = station;
   useEffect(() => {
     const sound = new AlarmSound(store);
-    return store.now_ms.subscribe((now_ms) => {
-      sound.beat(now_ms);
+    // Not on the beat alone: in a tab that is not looked at the browser lets it come once a minute.
+    return effect(() => {
+      void store.now_ms.value;
+      void store.alarms.value;
+      untracked(() => {
+        sound.beat(performance.now());
+      });
     });
   }, [store]);
   useShortcuts([
@@ -74,7 +81,9 @@ export function AlarmBadges({ station }: PanelProps) {
       <SoundMenu station={station} />
       {/* Read out at once, once an occurrence. */}
       <p class="visually-hidden" role="alert">
-        {newest === undefined ? "" : `${kSeverityNames[newest.severity] ?? ""}: ${newest.text}`}
+        {newest === undefined
+          ? ""
+          : `${kSeverityNames[newest.severity] ?? ""}: ${inChosenUnits(newest.text)}`}
       </p>
     </div>
   );

@@ -1,7 +1,7 @@
 import { useRef } from "preact/hooks";
 import type { Alarm, AlarmList } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import type { Station } from "../shell/station";
 import { acknowledgeAll, groupsOf, wantsAcknowledgement } from "./alarm_list";
 import { AlarmRow } from "./alarm_row";
@@ -10,7 +10,7 @@ import { whyNoAlarms } from "./service";
 
 /** What must be looked after, what is shelved, and what is over. */
 export function AlarmPanel({ station }: PanelProps) {
-  const { store, commands } = station;
+  const { store } = station;
   const list = store.alarms.value;
   const { open, shelved, over } = groupsOf(list);
   const trouble = whyNoAlarms(store, store.now_ms.value);
@@ -28,7 +28,7 @@ export function AlarmPanel({ station }: PanelProps) {
             class="button acknowledge-all"
             label="Acknowledge all that is listed (Shift+A)"
             disabled={unacknowledged === 0}
-            command={() => sendAlarm(commands, acknowledgeAll(list))}
+            command={() => sendAlarm(station, acknowledgeAll(list))}
           >
             Acknowledge all
           </CommandButton>

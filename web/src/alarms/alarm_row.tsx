@@ -5,6 +5,7 @@ import { Lamp } from "../panels/icons";
 import { VehicleChip } from "../panels/vehicle_chip";
 import type { Station } from "../shell/station";
 import { missionTime } from "../units/format";
+import { inChosenUnits } from "../units/station_text";
 import {
   acknowledge,
   countdown,
@@ -33,10 +34,11 @@ const kShelves = [
 /** One alarm: what, since when, whom it is about, and what can be done. */
 export function AlarmRow({ station, list, alarm }: AlarmRowProps) {
   const shelving = useSignal(false);
-  const { store, commands } = station;
+  const { store } = station;
   const flashes = wantsAcknowledgement(alarm);
+  const text = inChosenUnits(alarm.text);
   const start_utime = store.roster.value?.start_utime ?? 0;
-  const send = (body: ReturnType<typeof acknowledge>) => () => sendAlarm(commands, body);
+  const send = (body: ReturnType<typeof acknowledge>) => () => sendAlarm(station, body);
   const press = (event: KeyboardEvent) => {
     // On the row itself; its buttons have their own Enter.
     if (event.key !== "Enter" || event.target !== event.currentTarget) return;
@@ -55,7 +57,7 @@ export function AlarmRow({ station, list, alarm }: AlarmRowProps) {
       title={`${kSeverityNames[alarm.severity] ?? ""} ${alarm.id}: ${alarm.condition}`}
     >
       <Lamp level={alarm.severity} />
-      <p class="alarm-text">{alarm.text}</p>
+      <p class="alarm-text">{text}</p>
       <p class="alarm-state">
         <time>{missionTime(alarm.raised_utime, start_utime)}</time>{" "}
         {stateText(alarm, store.utimeAt(store.now_ms.value))}
@@ -83,14 +85,14 @@ export function AlarmRow({ station, list, alarm }: AlarmRowProps) {
           {flashes && (
             <CommandButton
               class="button acknowledge"
-              label={`Acknowledge: ${alarm.text} (Enter or A)`}
+              label={`Acknowledge: ${text} (Enter or A)`}
               command={send(acknowledge(list, alarm))}
             >
               Acknowledge
             </CommandButton>
           )}
           {alarm.state === kShelved && (
-            <CommandButton label={`Unshelve: ${alarm.text}`} command={send(unshelve(list, alarm))}>
+            <CommandButton label={`Unshelve: ${text}`} command={send(unshelve(list, alarm))}>
               Unshelve
             </CommandButton>
           )}
@@ -102,7 +104,7 @@ export function AlarmRow({ station, list, alarm }: AlarmRowProps) {
           {kShelves.map(([duration_s, name]) => (
             <CommandButton
               key={duration_s}
-              label={`Shelve for ${name}: ${alarm.text}`}
+              label={`Shelve for ${name}: ${text}`}
               command={send(shelve(list, alarm, duration_s))}
             >
               {name}

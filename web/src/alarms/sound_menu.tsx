@@ -1,5 +1,5 @@
 import { Icon } from "../shell/icon";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
 import { countdown, kSeverityNames } from "./alarm_list";
 import { heard, mute, muted_s, soundBlocked, tryOut, volume_percent } from "./sound";

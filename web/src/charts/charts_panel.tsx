@@ -3,7 +3,7 @@ import type uPlot from "uplot";
 import "uplot/dist/uPlot.min.css";
 import "./charts.css";
 import { readColours } from "../map/colours";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { clock, utc } from "../units/format";
 import { ChartView } from "./chart_view";
 import { kCharts } from "./chart_list";

@@ -27,6 +27,8 @@ export class Control {
   private readonly page = randomText();
   private joined = false;
   private withdrawn = false;
+  /** What was known when this page was last among the people. */
+  private last_known: ControlMessage | null = null;
 
   constructor(private readonly commands: Commands) {}
 
@@ -48,11 +50,12 @@ export class Control {
   }
 
   takeMessage(message: ControlMessage, now_ms: number): void {
-    const news = newsOf(control.value, message);
+    const news = newsOf(this.last_known, message);
     if (news !== null && !this.withdrawn) this.news.value = news;
     this.withdrawn = false;
     this.arrival_ms = now_ms;
     if (message.token !== "") writeToken(message.token);
+    if (message.you !== 0) this.last_known = message;
     control.value = message;
   }
 

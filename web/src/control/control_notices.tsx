@@ -1,6 +1,6 @@
 import { useEffect } from "preact/hooks";
 import { CommandButton } from "../panels/command_button";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { TakeOver } from "./take_over";
 import { holderOf, othersOf, youHold, youOf } from "./people";
 

@@ -1,7 +1,7 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useId } from "preact/hooks";
 import { CommandButton } from "../panels/command_button";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
 import { useShortcuts } from "../shell/shortcuts";
 import { person_name, view_only, type Control } from "./control";

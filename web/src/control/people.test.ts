@@ -49,6 +49,13 @@ test("losing, getting and being refused control is news, and nothing else is", (
   expect(newsOf(seen(3, 1, both), seen(3, 2, both))).toBeNull();
 });
 
+test("who comes back after control has gone to somebody else is told", () => {
+  const later = [person(2, "Bob"), person(3, "Ada")];
+  expect(newsOf(seen(1, 1, both), seen(3, 2, later))).toBe("Bob has control now. You are looking on.");
+  expect(newsOf(seen(1, 1, both), seen(0, 2, later))).toBeNull();
+  expect(newsOf(seen(1, 1, both), seen(3, 3, later))).toBeNull();
+});
+
 test("a name is one that fits and can be read", () => {
   expect(nameProblem("Ada")).toBe("");
   expect(nameProblem("ü".repeat(40))).toBe("");

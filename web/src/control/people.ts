@@ -51,15 +51,19 @@ export function whyNot(control: ControlMessage | null): string {
     : `${holder.name} holds control`;
 }
 
-/** What has changed for the person at this page in a way that has to be told; null: nothing. */
+/**
+ * What has changed for the person at this page in a way that has to be told; null: nothing. `before` is what was known when it was last
+ * among the people: after a connection that was gone for long it has another number, and somebody else may have control.
+ */
 export function newsOf(before: ControlMessage | null, now: ControlMessage): string | null {
-  if (before === null || before.you !== now.you || before.you === 0) return null;
+  if (before === null || before.you === 0 || now.you === 0) return null;
   const [held, holds] = [youHold(before), youHold(now)];
   if (held && !holds) {
     const holder = holderOf(now);
     return holder === null ? null : `${holder.name} has control now. You are looking on.`;
   }
   if (!held && holds && before.holder !== 0) return "You have control now.";
+  if (before.you !== now.you) return null;
   const asked = youOf(before)?.waits_for_s ?? null;
   if (!holds && asked !== null && youOf(now)?.waits_for_s === null && before.holder === now.holder)
     return `${holderOf(now)?.name ?? "Nobody"} keeps control.`;

@@ -1,12 +1,15 @@
 import { useSignal, type Signal } from "@preact/signals";
+import { Fragment } from "preact";
 import type { BusEvent } from "../link/messages";
 import { Lamp } from "../panels/icons";
 import { VehicleChip } from "../panels/vehicle_chip";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import type { Station } from "../shell/station";
 import { missionTime, utc } from "../units/format";
+import { inChosenUnits } from "../units/station_text";
 import "./events.css";
 import { filterEvents } from "./filter";
+import { flightStarts, startBetween } from "./flights";
 
 /** So many rows are drawn at first, and with each press on "Show more". */
 const kPage = 100;
@@ -28,6 +31,11 @@ export function EventList({ station }: PanelProps) {
     },
     (id) => store.callsign(id),
   );
+  const starts = flightStarts(events, store.roster.value?.start_utime ?? 0);
+  const startAfter = (i: number) => {
+    const [event, older] = [found[i], found[i + 1]];
+    return event === undefined || older === undefined ? null : startBetween(starts, event, older);
+  };
   return (
     <section class="events" aria-label="Events">
       <Filters text={text} least_severity={least_severity} only_selected={only_selected} />
@@ -42,12 +50,11 @@ export function EventList({ station }: PanelProps) {
       ) : (
         // Scrolls, so it must be reachable by keyboard.
         <ol tabIndex={0} aria-label={`Events, newest first: ${found.length} of ${events.length}`}>
-          {found.slice(0, most.value).map((event) => (
-            <EventRow
-              key={`${event.event_node}/${event.utime}/${event.event_sequence}`}
-              station={station}
-              event={event}
-            />
+          {found.slice(0, most.value).map((event, i) => (
+            <Fragment key={`${event.event_node}/${event.utime}/${event.event_sequence}`}>
+              <EventRow station={station} event={event} />
+              <FlightStart utime={startAfter(i)} />
+            </Fragment>
           ))}
           {found.length > most.value && (
             <li class="more">
@@ -117,13 +124,19 @@ function Filters({ text, least_severity, only_selected }: FiltersProps) {
   );
 }
 
+/** Between the events of two flights: above it is the later one. */
+function FlightStart({ utime }: { utime: number | null }) {
+  if (utime === null) return null;
+  return <li class="flight-start">New flight, {utc(utime)} UTC</li>;
+}
+
 function EventRow({ station, event }: { station: Station; event: BusEvent }) {
   const start_utime = station.store.roster.value?.start_utime ?? 0;
   return (
     <li title={`${event.event_node}: ${event.code}, ${utc(event.utime)} UTC`}>
       <Lamp level={event.severity} />
       <time>{missionTime(event.utime, start_utime)}</time>
-      <span>{event.text}</span>
+      <span>{inChosenUnits(event.text)}</span>
       {event.vehicle_id > 0 && <VehicleChip station={station} id={event.vehicle_id} />}
     </li>
   );

@@ -30,6 +30,8 @@ export class FormationEditor {
   readonly chosen_id = signal<number | null>(null);
   readonly session: ReadonlySignal<EditSession | null>;
   readonly conflicts: ReadonlySignal<readonly Conflict[]>;
+  /** Whose slots those are. */
+  readonly conflicting: ReadonlySignal<ReadonlySet<number>>;
   readonly problems: ReadonlySignal<readonly string[]>;
   readonly preview: Preview;
   /** The panel is open: drafts are drawn on the map and flown ahead. */
@@ -42,6 +44,9 @@ export class FormationEditor {
   readonly accepted = signal<Draft | null>(null);
   /** The time of the preview that is drawn on the map [s]; 0: only its tracks. */
   readonly looked_at_s = signal(0);
+  private readonly flown_places = computed(
+    () => new Map(this.session.value?.flown.value?.slots.map((slot) => [slot.vehicle_id, slot])),
+  );
   private proposal = new AbortController();
 
   constructor(readonly station: Station) {
@@ -52,6 +57,7 @@ export class FormationEditor {
       const draft = this.session.value?.draft.value;
       return draft === undefined ? [] : conflictsOf(draft.slots, draft.limits);
     });
+    this.conflicting = computed(() => new Set(this.conflicts.value.flatMap(({ ids }) => ids)));
     const in_fleet = computed(() => new Set(store.roster.value?.vehicles.map(({ id }) => id)));
     this.problems = computed(() => {
       const draft = this.session.value?.draft.value;
@@ -203,10 +209,7 @@ export class FormationEditor {
   /** Where a UAV is now, seen from the leader: its slot as it is flown, less its error. */
   seen(id: number, ground: Ground, now_ms: number): Offset | null {
     const { fleet } = this.station.store;
-    const flown = this.session
-      .peek()
-      ?.flown.peek()
-      ?.slots.find((slot) => slot.vehicle_id === id);
+    const flown = this.flown_places.value.get(id);
     const row = fleet.statusRow(id);
     if (flown !== undefined && row >= 0 && fleet.status !== null) {
       return {

@@ -1,5 +1,5 @@
 import { useEffect } from "preact/hooks";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { CommandButton } from "../panels/command_button";
 import { useShortcuts } from "../shell/shortcuts";
 import { ApplyBar } from "./apply_bar";
@@ -24,8 +24,8 @@ export function FormationPanel({ station }: PanelProps) {
   const undo = () => session?.history.undo();
   const redo = () => session?.history.redo();
   useShortcuts([
-    { keys: "Ctrl+z", label: "Undo", group: "Formation", run: () => undo() },
-    { keys: "Ctrl+Shift+z", label: "Redo", group: "Formation", run: () => redo() },
+    { keys: "Ctrl+z", label: "Undo", group: "Formation", run: () => undo(), repeats: true },
+    { keys: "Ctrl+Shift+z", label: "Redo", group: "Formation", run: () => redo(), repeats: true },
   ]);
   return (
     <div class="formation-panel">
@@ -178,7 +178,7 @@ function Notices({ session }: { session: EditSession }) {
   if (overtaken.length === 0) return null;
   return (
     <div class="notice" role="alert">
-      <p>Somebody else has changed what is flown: {overtaken.join(", ")}. Your draft is still here.</p>
+      <p>What is flown has changed since you began: {overtaken.join(", ")}. Your draft is still here.</p>
       <div class="notice-buttons">
         <button
           type="button"

@@ -2,7 +2,7 @@ import { useRef } from "preact/hooks";
 import type { Formation } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
 import { Icon } from "../shell/icon";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
 import { useShortcuts } from "../shell/shortcuts";
 import { command, concerned, nameOf } from "./hold";

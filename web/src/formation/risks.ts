@@ -1,6 +1,7 @@
 /** What speaks against Apply, and whether somebody may decide otherwise. */
 import type { Conflict } from "./checks";
 import type { PreviewState } from "./preview";
+import { inChosenUnits } from "../units/station_text";
 import { separation } from "./words";
 
 /** The bridge flies no longer ahead than this [s]; less is for want of time to compute. */
@@ -33,7 +34,7 @@ export function risksOf(
   if (preview.kind !== "done") return risks;
   const { result } = preview;
   if (!result.ok) {
-    risks.push({ level: -1, text: `The station would refuse it: ${result.reason}` });
+    risks.push({ level: -1, text: `The station would refuse it: ${inChosenUnits(result.reason)}` });
     return risks;
   }
   if (!result.complete && result.duration_s < kLongest_s) {

@@ -84,7 +84,7 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
   const now_ms = store.now_ms.value;
   const colours = colours_now.value;
   const shown = viewNow();
-  const conflicts = editor.conflicts.value;
+  const conflicting = editor.conflicting.value;
   useEffect(() => {
     const element = canvas.current;
     const context = element?.getContext("2d");
@@ -101,14 +101,14 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
     draw(context, shown, {
       draft,
       selection,
-      conflicting: new Set(conflicts.flatMap(({ ids }) => ids)),
+      conflicting,
       seen: new Map(seen),
       colours,
       font: getComputedStyle(element).fontFamily,
       lengthText: (metres) => distance.full(metres),
       unit_m: distance.toSi(1),
     });
-  }, [editor, draft, selection, conflicts, now_ms, colours, shown]);
+  }, [editor, draft, selection, conflicting, now_ms, colours, shown]);
 
   const step_m = distance.toSi(snap_step.value);
   const members = new Set(draft.slots.map(({ vehicle_id }) => vehicle_id));

@@ -36,6 +36,7 @@ export function SlotTable({ editor, session }: SlotTableProps) {
   const { slots } = draft;
   const from = Math.max(0, Math.min(first.value, slots.length - kShown) - kSpare);
   const shown = slots.slice(from, from + kShown + 2 * kSpare);
+  const alone = store.selection.value.size === 1;
   const after = slots.length - from - shown.length;
   return (
     <div
@@ -68,7 +69,8 @@ export function SlotTable({ editor, session }: SlotTableProps) {
             <SlotRow
               key={slot.vehicle_id}
               index={from + i}
-              {...{ editor, session, draft, slot, ground, now_ms }}
+              conflict={editor.conflicting.value.has(slot.vehicle_id)}
+              {...{ editor, session, draft, slot, alone, ground, now_ms }}
             />
           ))}
           {after > 0 && <Gap rows={after} />}
@@ -90,16 +92,19 @@ interface SlotRowProps extends SlotTableProps {
   draft: Draft;
   slot: Draft["slots"][number];
   index: number;
+  /** In another one's cylinder. */
+  conflict: boolean;
+  /** One UAV alone is selected, and can exchange its place. */
+  alone: boolean;
   ground: Ground | null;
   now_ms: number;
 }
 
-function SlotRow({ editor, session, draft, slot, index, ground, now_ms }: SlotRowProps) {
+function SlotRow({ editor, session, draft, slot, index, conflict, alone, ground, now_ms }: SlotRowProps) {
   const { store } = editor.station;
   const id = slot.vehicle_id;
   const callsign = store.callsign(id);
   const selected = store.selection.value.has(id);
-  const conflict = editor.conflicts.value.some(({ ids }) => ids.includes(id));
   const flying = editor.flying(id, now_ms);
   const place = ground?.place(slot);
   const way_m =
@@ -109,7 +114,7 @@ function SlotRow({ editor, session, draft, slot, index, ground, now_ms }: SlotRo
   return (
     <tr class={`${selected ? "selected" : ""} ${conflict ? "conflict" : ""}`} aria-rowindex={index + 2}>
       <th scope="row">
-        {selected ? (
+        {selected && alone ? (
           <Occupant {...{ editor, session, draft, id }} />
         ) : (
           <button

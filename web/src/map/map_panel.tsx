@@ -11,6 +11,7 @@ interface MapPanelProps {
   freeArea: () => DOMRect;
 }
 
+const kRepeated: ReadonlySet<string> = new Set(["+", "-", "n", "Shift+n"]);
 const kPan_px = 80;
 
 const kArrows: Readonly<Record<string, readonly [number, number]>> = {
@@ -40,6 +41,7 @@ export function MapPanel({ station, freeArea }: MapPanelProps) {
     keys,
     label,
     group: "Map",
+    repeats: kRepeated.has(keys),
     run: () => {
       if (map.value !== null) run(map.value);
     },

@@ -3,6 +3,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { why_no_command } from "../control/control";
 import type { Outcome } from "../link/commands";
+import { inChosenUnits } from "../units/station_text";
 
 interface CommandButtonProps {
   /** Sends the command. */
@@ -85,8 +86,10 @@ interface RefusalProps {
 function Refusal({ text, anchor, dismiss }: RefusalProps) {
   const note = useRef<HTMLDivElement>(null);
   useLayoutEffect(() => {
-    note.current?.showPopover();
-  }, []);
+    if (note.current === null) return;
+    note.current.showPopover();
+    if (anchor !== null) putBeside(note.current, anchor);
+  }, [anchor, text]);
   const dismissed = useRef(dismiss);
   dismissed.current = dismiss;
   useEffect(() => {
@@ -97,17 +100,24 @@ function Refusal({ text, anchor, dismiss }: RefusalProps) {
       clearTimeout(timer);
     };
   }, [text]);
-  const box = anchor?.getBoundingClientRect();
-  const place = {
-    right: `${window.innerWidth - (box?.right ?? 0)}px`,
-    bottom: `${window.innerHeight - (box?.top ?? 0) + 8}px`,
-  };
   return (
-    <div class="refusal" role="alert" popover="manual" ref={note} style={place}>
-      <span>{text}</span>
+    <div class="refusal" role="alert" popover="manual" ref={note}>
+      <span>{inChosenUnits(text)}</span>
       <button type="button" class="button quiet" aria-label="Dismiss" onClick={dismiss}>
         ✕
       </button>
     </div>
   );
+}
+
+const kGap_px = 8;
+
+/** Above the control where there is room, else below it; never beyond the edge of the window. */
+function putBeside(note: HTMLElement, anchor: HTMLElement): void {
+  const [box, own] = [anchor.getBoundingClientRect(), note.getBoundingClientRect()];
+  const farthest = window.innerWidth - own.width - kGap_px;
+  const left = Math.max(kGap_px, Math.min(box.right - own.width, farthest));
+  const above = box.top - own.height - kGap_px;
+  const top = above >= kGap_px ? above : box.bottom + kGap_px;
+  Object.assign(note.style, { left: `${left}px`, top: `${top}px` });
 }

@@ -2,6 +2,7 @@ import { kLinkLost } from "../state/fleet";
 import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import { clock, duration } from "../units/format";
+import { inChosenUnits } from "../units/station_text";
 import { endOf, kModes, sameWords, withLossAge } from "./mode_text";
 
 /** More formations than this have two lines each instead of a card. */
@@ -34,7 +35,7 @@ function ModeCard({ store, status }: { store: Store; status: FormationStatus }) 
   const shape = formation === undefined ? "" : (kShapes[formation.shape] ?? formation.shape);
   const mode = kModes[status.mode] ?? `Mode ${status.mode}`;
   const name = formation?.name ? formation.name : `Formation ${status.formation_id}`;
-  const text = withLossAge(status.mode_text, lossAge_s(store, status));
+  const text = inChosenUnits(withLossAge(status.mode_text, lossAge_s(store, status)));
   return (
     <li class="panel mode-card" data-mode={status.mode} data-formation={status.formation_id}>
       <p class="mode-head">

@@ -3,7 +3,7 @@ import "./payload.css";
 import { kPayloadOn } from "../link/frames";
 import type { Vehicle } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import type { Station } from "../shell/station";
 import { lateSentence } from "./late_sentence";
 import { phaseOf } from "./payload_requests";

@@ -1,5 +1,5 @@
 import { useEffect } from "preact/hooks";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { useShortcuts } from "../shell/shortcuts";
 import { clock } from "../units/format";
 import { distance } from "../units/quantities";
@@ -60,8 +60,14 @@ interface PartProps {
 function PlanHead({ planner, draft }: PartProps) {
   const { undo_label, redo_label } = draft.history;
   useShortcuts([
-    { keys: "Ctrl+z", label: "Undo", group: "Plan", run: () => planner.draft.peek()?.undo() },
-    { keys: "Ctrl+Shift+z", label: "Redo", group: "Plan", run: () => planner.draft.peek()?.redo() },
+    { keys: "Ctrl+z", label: "Undo", group: "Plan", run: () => planner.draft.peek()?.undo(), repeats: true },
+    {
+      keys: "Ctrl+Shift+z",
+      label: "Redo",
+      group: "Plan",
+      run: () => planner.draft.peek()?.redo(),
+      repeats: true,
+    },
     {
       keys: "w",
       label: "Add waypoints by clicking: on or off",
@@ -157,8 +163,7 @@ function Overtaken({ planner, draft }: PartProps) {
   return (
     <div class="plan-note" role="alert">
       <p>
-        <b>{planner.formation_name.value} flies another path now</b> ({what}), commanded since you began this
-        one.
+        <b>{planner.formation_name.value} flies another path now</b> ({what}) than when you began this one.
       </p>
       <div class="plan-actions">
         <button

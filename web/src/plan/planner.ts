@@ -172,9 +172,12 @@ export class Planner {
   private draftOf(id: number): PathDraft {
     const known = this.drafts.get(id);
     if (known !== undefined) return known;
+    let last = kStraightOn;
     const flown = computed(() => {
       const path = this.store.paths.value.get(id);
-      return path === undefined ? kStraightOn : { closed: path.closed, waypoints: path.waypoints };
+      if (path !== undefined) last = { closed: path.closed, waypoints: path.waypoints };
+      // While nothing is known, after a new connection or between two flights, it is what was known last.
+      return last;
     });
     const draft = new PathDraft(flown);
     this.drafts.set(id, draft);

@@ -2,6 +2,7 @@ import { Fragment } from "preact";
 import { NumberField } from "../panels/number_field";
 import { Icon } from "../shell/icon";
 import { clock, compass } from "../units/format";
+import { inChosenUnits } from "../units/station_text";
 import { altitude, distance, kAltitudeReference, speed } from "../units/quantities";
 import type { FlownLeg } from "./legs";
 import type { PathDraft } from "./path_draft";
@@ -71,7 +72,7 @@ export function Problem({ text }: { text: string }) {
         <circle cx="8" cy="8" r="6" />
         <path d="M3.800 12.200l8.400-8.400" />
       </svg>{" "}
-      {text.charAt(0).toUpperCase() + text.slice(1)}
+      {inChosenUnits(text.charAt(0).toUpperCase() + text.slice(1))}
     </p>
   );
 }

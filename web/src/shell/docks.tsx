@@ -11,7 +11,8 @@ import {
   side_width_px,
   toggleDrawer,
 } from "./layout";
-import { kDockPanels, kDrawerPanels, kSidePanels, type PanelProps, type PanelSpec } from "./panel_list";
+import { kDockPanels, kDrawerPanels, kSidePanels, type PanelSpec } from "./panel_list";
+import type { PanelProps } from "./panel_props";
 import { useShortcuts } from "./shortcuts";
 import { Splitter } from "./splitter";
 import { Tabs } from "./tabs";

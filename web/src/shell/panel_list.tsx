@@ -9,11 +9,7 @@ import { PayloadPanel } from "../payload/payload_panel";
 import { FormationTable } from "../table/formation_table";
 import { SimulationPanel } from "../simulation/simulation_panel";
 import type { IconName } from "./icon";
-import type { Station } from "./station";
-
-export interface PanelProps {
-  station: Station;
-}
+import type { PanelProps } from "./panel_props";
 
 export interface PanelSpec {
   id: string;

@@ -6,7 +6,7 @@ import { LinkBanner } from "../panels/link_banner";
 import { ModeCards } from "../panels/mode_cards";
 import { Dock, Drawer, Rail, SideColumn } from "./docks";
 import { Help } from "./help";
-import type { PanelProps } from "./panel_list";
+import type { PanelProps } from "./panel_props";
 import { listenForShortcuts } from "./shortcuts";
 import { TopBar } from "./top_bar";
 

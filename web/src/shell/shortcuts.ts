@@ -10,6 +10,8 @@ export interface Shortcut {
   /** Heading in the help. */
   group: string;
   run: () => void;
+  /** A key that is held down goes on doing it. Not so by default: nobody means to acknowledge ten alarms by resting a finger on a key. */
+  repeats?: boolean;
 }
 
 /** Those that are in force now. Of two with the same keys, the later one counts: that of the panel opened last. */
@@ -67,7 +69,7 @@ export function listenForShortcuts(): () => void {
     const shortcut = shortcuts.peek().findLast((one) => one.keys.toLowerCase() === keys.toLowerCase());
     if (shortcut === undefined) return;
     event.preventDefault();
-    shortcut.run();
+    if (!event.repeat || shortcut.repeats === true) shortcut.run();
   };
   document.addEventListener("keydown", onKey);
   return () => {

@@ -6,7 +6,7 @@ import { Brand } from "../panels/icons";
 import { clock, kNone, utc } from "../units/format";
 import { help_open } from "./help";
 import { Icon } from "./icon";
-import type { PanelProps } from "./panel_list";
+import type { PanelProps } from "./panel_props";
 import { SettingsMenu } from "./settings_menu";
 
 /** What must always be in sight and in reach. */

@@ -5,7 +5,7 @@ import type { BusEvent, Vehicle } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
 import { Chain, kLinkNames } from "../panels/icons";
 import { NumberField } from "../panels/number_field";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { Choice } from "../shell/settings_menu";
 import { uavRow } from "../state/rows";
 import { percent, seconds } from "../units/quantities";

@@ -2,7 +2,7 @@ import { useSignal, type Signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Outcome } from "../link/commands";
 import { CommandButton } from "../panels/command_button";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { duration } from "../units/format";
 
 /** GET /api/scenarios */

@@ -1,4 +1,4 @@
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { LinkControls } from "./link_controls";
 import { ScenarioControls } from "./scenario_controls";
 import "./simulation.css";

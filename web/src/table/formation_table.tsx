@@ -2,7 +2,7 @@ import { useSignal } from "@preact/signals";
 import { useMemo, useRef } from "preact/hooks";
 import "./table.css";
 import { lateSentence } from "../payload/late_sentence";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { kColumns, kLinkColumn } from "./columns";
 import { RowList } from "./row_list";
 import { filter_text, hidden_columns, order, show } from "./table_settings";
