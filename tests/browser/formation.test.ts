@@ -172,7 +172,7 @@ test("what another operator changes meanwhile is pointed out, and the draft is k
     action: "apply",
     formation: { ...formations[0], radius_m: 200, d_mod_m: 200 },
   });
-  const notice = screen.page.locator(".notice");
+  const notice = screen.page.locator(".formation-notice");
   await until(async () => expect(await notice.innerText()).toContain("cylinder, thresholds"), 5000);
   expect(await screen.page.getByLabel("Spacing [m]", { exact: true }).inputValue()).toBe("450");
   await screen.button("Take what is flown").click();

@@ -170,14 +170,14 @@ function Notices({ session }: { session: EditSession }) {
   const overtaken = session.overtaken.value;
   if (session.flown.value === null && session.removed) {
     return (
-      <p class="notice" role="status">
+      <p class="formation-notice" role="status">
         It is flown no more. Apply makes it anew.
       </p>
     );
   }
   if (overtaken.length === 0) return null;
   return (
-    <div class="notice" role="alert">
+    <div class="formation-notice" role="alert">
       <p>What is flown has changed since you began: {overtaken.join(", ")}. Your draft is still here.</p>
       <div class="notice-buttons">
         <button

@@ -20,8 +20,12 @@ export function toggleDrawer(id: string): void {
   drawer_panel.value = drawer_panel.value === id ? "" : id;
 }
 
+/** Where the window is narrow there is room for the drawer or the column, not for both (style/layout.css). */
+const kNarrow = "(max-width: 1000px)";
+
 /** Shows a panel of the side column. */
 export function showSide(id: string): void {
+  if (matchMedia(kNarrow).matches) drawer_panel.value = "";
   side_panel.value = id;
   side_open.value = true;
 }

@@ -66,6 +66,8 @@ export function listenForShortcuts(): () => void {
   const onKey = (event: KeyboardEvent) => {
     if (event.defaultPrevented || typing(event.target)) return;
     const keys = keysOf(event);
+    // It closes the dialog, unless somebody prevents that.
+    if (keys === "Escape" && document.querySelector("dialog:modal") !== null) return;
     const shortcut = shortcuts.peek().findLast((one) => one.keys.toLowerCase() === keys.toLowerCase());
     if (shortcut === undefined) return;
     event.preventDefault();
