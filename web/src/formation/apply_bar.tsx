@@ -1,5 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { CommandButton } from "../panels/command_button";
+import { kLeftOut, kLimitNames } from "../panels/flight_ahead";
 import { Lamp } from "../panels/icons";
 import { duration, kNone } from "../units/format";
 import type { FormationEditor } from "./editor";
@@ -124,6 +125,7 @@ function PreviewFigures({ editor, preview }: { editor: FormationEditor; preview:
         </button>
       </div>
       <Figures result={result} callsign={(id) => store.callsign(id)} />
+      <p class="hint">{kLeftOut}</p>
     </div>
   );
 }
@@ -174,19 +176,10 @@ function Figures({ result, callsign }: FiguresProps) {
   );
 }
 
-/** The bridge's names of what an envelope limits. */
-const kLimits: Readonly<Record<string, string>> = {
-  min_speed: "least speed",
-  max_speed: "greatest speed",
-  course_rate: "turn rate",
-  climb: "climb angle",
-  climb_rate: "climb-angle rate",
-};
-
 function Limits({ limits, callsign }: { limits: readonly LimitReached[]; callsign: (id: number) => string }) {
   const longest = [...limits].sort((a, b) => b.seconds - a.seconds);
   const text = ({ vehicle_id, limit, t_s, seconds }: LimitReached) =>
-    `${callsign(vehicle_id)}: ${kLimits[limit] ?? limit}, ${Math.max(1, Math.round(seconds))} s from +${Math.round(t_s)} s`;
+    `${callsign(vehicle_id)}: ${kLimitNames[limit] ?? limit}, ${Math.max(1, Math.round(seconds))} s from +${Math.round(t_s)} s`;
   const [first, ...others] = longest;
   if (first === undefined) return "nobody";
   return (

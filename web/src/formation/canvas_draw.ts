@@ -24,6 +24,7 @@ export interface Picture {
 
 const kDisc_px = 11;
 const kDot_px = 5;
+const kLeastDot_px = 1.5;
 /** Slots closer than this on the screen are dots without numbers. */
 const kRoomForNumbers_px = 20;
 const kGridLines = 5;
@@ -110,8 +111,10 @@ function drawWays(context: CanvasRenderingContext2D, view: CanvasView, picture: 
 
 function drawSlots(context: CanvasRenderingContext2D, view: CanvasView, picture: Picture): void {
   const { draft, selection, conflicting, colours } = picture;
-  const numbered = roomBetween(draft, view) >= kRoomForNumbers_px;
-  const radius_px = numbered ? kDisc_px : kDot_px;
+  const room_px = roomBetween(draft, view);
+  const numbered = room_px >= kRoomForNumbers_px;
+  const radius_px = numbered ? kDisc_px : Math.min(kDot_px, Math.max(kLeastDot_px, 0.35 * room_px));
+  const rim_px = Math.min(1.5, 0.3 * radius_px);
   for (const slot of draft.slots) {
     const { x, y } = toPixel(view, slot);
     if (conflicting.has(slot.vehicle_id)) {
@@ -127,7 +130,7 @@ function drawSlots(context: CanvasRenderingContext2D, view: CanvasView, picture:
     context.arc(x, y, radius_px, 0, 2 * Math.PI);
     context.fillStyle = identity(colours, slot.vehicle_id);
     context.fill();
-    context.lineWidth = selection.has(slot.vehicle_id) ? 3 : 1.5;
+    context.lineWidth = selection.has(slot.vehicle_id) ? 2 * rim_px : rim_px;
     context.strokeStyle = selection.has(slot.vehicle_id) ? colours.text : colours.map_halo;
     context.stroke();
     if (numbered) {

@@ -1,3 +1,4 @@
+import { kLeftOut, kLimitNames } from "../panels/flight_ahead";
 import { clock, duration } from "../units/format";
 import { altitude, distance } from "../units/quantities";
 import type { PathPlan } from "./path_plan";
@@ -32,7 +33,8 @@ export function FlightAhead({ planner, plan }: { planner: Planner; plan: PathPla
       ))}
       <p class="hint">
         Flown ahead for {duration(flight.preview.duration_s)}
-        {flight.preview.complete ? "" : ", not to its end"}, from {duration(Math.max(age_s, 0))} ago.
+        {flight.preview.complete ? "" : ", not to its end"}, from {duration(Math.max(age_s, 0))} ago.{" "}
+        {kLeftOut}
       </p>
     </div>
   );
@@ -54,15 +56,6 @@ function LeastSeparation({ planner, flight }: { planner: Planner; flight: Flight
   );
 }
 
-const kLimits: Readonly<Record<string, string>> = {
-  min_speed: "least speed",
-  max_speed: "greatest speed",
-  acceleration: "acceleration",
-  course_rate: "rate of turn",
-  climb: "climb angle",
-  climb_rate: "change of climb angle",
-};
-
 /** One line a limit: who, and for how long. */
 function limitsText({ limits }: FlightPreview, callsign: (id: number) => string): string[] {
   const by_limit = new Map<string, { ids: string[]; seconds: number }>();
@@ -75,6 +68,6 @@ function limitsText({ limits }: FlightPreview, callsign: (id: number) => string)
   }
   return [...by_limit].map(
     ([limit, { ids, seconds }]) =>
-      `Out of its slot at a limit (${kLimits[limit] ?? limit}): ${ids.join(", ")} for up to ${duration(seconds)}.`,
+      `Out of its slot at a limit (${kLimitNames[limit] ?? limit}): ${ids.join(", ")} for up to ${duration(seconds)}.`,
   );
 }

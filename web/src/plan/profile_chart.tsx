@@ -8,7 +8,9 @@ import type { Planner } from "./planner";
 import { profileOf, type Profile } from "./profile";
 
 const kHeight_px = 132;
-const kMargin_px = { left: 46, right: 14, top: 12, bottom: 20 };
+/** The first waypoint does not lie on the numbers of the axis. */
+const kInset_px = 10;
+const kMargin_px = { left: 46, right: 24, top: 16, bottom: 20 };
 const kLeastSpan_m = 200;
 /** A drag gives round numbers. */
 const kDragStep_m = 10;
@@ -71,7 +73,10 @@ export function ProfileChart({ planner, draft }: ProfileChartProps) {
           </text>
         </g>
       ))}
-      {ticks(0, scale.length_m, distance).map((along_m) => (
+      <text class="profile-along" x={2} y={11}>
+        {`${altitude.unit()} ${kAltitudeReference}`}
+      </text>
+      {ticks(0, scale.length_m, distance).map((along_m, i, all) => (
         <text
           key={along_m}
           class="profile-along"
@@ -79,7 +84,7 @@ export function ProfileChart({ planner, draft }: ProfileChartProps) {
           y={kHeight_px - 5}
           text-anchor="middle"
         >
-          {distance.text(along_m)}
+          {i === all.length - 1 ? distance.full(along_m) : distance.text(along_m)}
         </text>
       ))}
       <path
@@ -125,7 +130,7 @@ function scaleOf({ line, waypoints }: Profile, width_px: number): Scale {
   const span_m = Math.max((Math.max(...ups) - Math.min(...ups)) * 1.25, kLeastSpan_m);
   const [low_m, high_m] = [middle_m - span_m / 2, middle_m + span_m / 2];
   const length_m = Math.max(line.at(-1)?.along_m ?? 0, 1);
-  const [left, right] = [kMargin_px.left, width_px - kMargin_px.right];
+  const [left, right] = [kMargin_px.left + kInset_px, width_px - kMargin_px.right];
   const [top, bottom] = [kMargin_px.top, kHeight_px - kMargin_px.bottom];
   return {
     low_m,

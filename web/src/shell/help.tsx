@@ -48,7 +48,7 @@ export function Help() {
                   {[...entries].map(([keys, label]) => (
                     <div key={keys}>
                       <dt>
-                        {keys.split("+").map((key) => (
+                        {keys.split(/(?<=.)\+(?=.)/).map((key) => (
                           <kbd key={key}>{key.length === 1 ? key.toUpperCase() : key}</kbd>
                         ))}
                       </dt>
