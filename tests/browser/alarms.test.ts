@@ -162,6 +162,19 @@ test("an alarm is shelved for a time that counts down, and flashes when it is ta
   await until_state(0, true, 3000);
 });
 
+test("a key that is held down does its work once", async () => {
+  await screen.page.keyboard.down("Shift");
+  await screen.page.keyboard.down("M");
+  await until(async () => expect(await screen.page.locator(".mute-left").count()).toBe(1), 2000);
+  // The browser's repetition of a key that stays down.
+  await screen.page.keyboard.down("M");
+  expect(await screen.page.locator(".mute-left").count()).toBe(1);
+  await screen.page.keyboard.up("M");
+  await screen.page.keyboard.up("Shift");
+  await screen.page.keyboard.press("Shift+M");
+  await until(async () => expect(await screen.page.locator(".mute-left").count()).toBe(0), 2000);
+});
+
 test("one that has ended unseen stays until it is acknowledged, and is then history in both", async () => {
   explain();
   await setLink("up");

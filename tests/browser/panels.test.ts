@@ -88,6 +88,21 @@ test("settings and help", async () => {
   await screen.page.locator("dialog.help[open]").waitFor();
   await lookAt("Help");
   await screen.page.keyboard.press("Escape");
+  await screen.page.locator("dialog.help[open]").waitFor({ state: "hidden" });
+});
+
+test("in feet, what the station says is in feet, too", async () => {
+  const unit = async (quantity: string, name: string) => {
+    await screen.button("Settings").click();
+    const choice = screen.page.getByRole("radiogroup", { name: quantity });
+    await choice.getByRole("radio", { name, exact: true }).check({ force: true });
+    await screen.page.keyboard.press("Escape");
+  };
+  const mode = () => screen.page.locator(".mode-card", { hasText: "link of" }).first().innerText();
+  expect(await mode()).toMatch(/200 m\b/);
+  await unit("Altitude", "ft");
+  expect(await mode()).toMatch(/656 ft\b/);
+  await unit("Altitude", "m");
 });
 
 test("on a tablet, upright or not, nothing is out of reach", async () => {
@@ -98,6 +113,12 @@ test("on a tablet, upright or not, nothing is out of reach", async () => {
     await screen.picture("tablet", width, height, "light");
     expect(await overflow()).toEqual([]);
   }
+  // There is no room for both: alarms come before tools.
+  await screen.button("Plan").click();
+  await screen.page.locator(".drawer").waitFor();
+  await screen.picture("tablet-plan", 820, 1180, "light");
+  await screen.page.locator(".badges").click();
+  await screen.page.locator(".alarms").waitFor();
 });
 
 test("nothing was complained of, and no request left this machine", () => {

@@ -109,6 +109,7 @@ test("the scenario is started anew after a second look", async () => {
   }, 5000);
   await until(async () => {
     expect(await screen.text(".events")).toMatch(/simulation starts anew: Two abreast, 2 UAVs/i);
+    expect(await screen.page.locator(".events .flight-start").count()).toBe(1);
     expect(await screen.text(".mode-name")).toBe("In formation");
   });
 });
