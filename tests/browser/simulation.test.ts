@@ -124,9 +124,11 @@ test("another scenario with more UAVs is chosen, read about and loaded", async (
   expect(await choice.innerText()).toContain("another fleet to load");
   await choice.locator("input").check();
   await screen.page.getByText("Four abreast starts with 4 UAVs").waitFor();
-  for (const theme of ["dark", "light"] as const) {
-    await screen.picture("simulation-load", 1280, 720, theme);
-    await screen.picture("simulation-load", 1920, 1080, theme);
+  for (const [width, height, theme] of [
+    [1280, 720, "dark"],
+    [1920, 1080, "light"],
+  ] as const) {
+    await screen.picture("simulation-load", width, height, theme);
     expect(await screen.barriers()).toEqual([]);
   }
   await screen.button("Load now").click();

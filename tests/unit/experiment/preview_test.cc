@@ -99,7 +99,8 @@ TEST(PreviewFormation, ClimbsNoHigherThanTheCeiling) {
   const auto highest_m = [&] {
     const Preview preview = PreviewFormation(picture, flight.flights.at(1).formation, {60, {}});
     double highest = 0;
-    for (const TrackPoint& point : TrackOf(preview, 1).points) highest = std::max(highest, point.position.z());
+    for (const TrackPoint& point : TrackOf(preview, 1).points)
+      highest = std::max(highest, point.position.z());
     return highest;
   };
   EXPECT_GT(highest_m(), up_m + 150);
