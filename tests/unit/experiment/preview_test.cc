@@ -82,7 +82,13 @@ TEST(PreviewFormation, KeepsStrangersApartByTheScenariosCylinder) {
   flight.FlyUntil(20);
   FlightPicture picture = flight.Picture();
   const formation_t formation = flight.flights.at(1).formation;
-  const auto worst = [&] { return PreviewFormation(picture, formation, {}).nearest.at(0).cylinders; };
+  const auto worst = [&] {
+    const Preview preview = PreviewFormation(picture, formation, {});
+    // UAVs 1 to 3 are one formation, 4 to 6 the other.
+    return std::ranges::find_if(preview.nearest,
+                                [](const auto& pair) { return pair.first_id <= 3 && pair.second_id > 3; })
+        ->cylinders;
+  };
   const double usual = worst();
   picture.strangers.radius_m *= 2;
   picture.strangers.d_mod_m *= 2;
