@@ -4,7 +4,8 @@
  *
  *   node tests/bench/map.mjs [DIST[,DIST...]] [COUNT[,COUNT...]]
  *
- * DIST is web/dist unless named; several are measured in turn, for a comparison in one run.
+ * DIST is web/dist unless named; several are measured in turn, for a comparison in one run. SCENES=fit,zoomed,panned,followed,table chooses what
+ * is measured, PROFILE=30 prints the 30 functions that took most, PICTURES=DIR keeps a screenshot of each.
  */
 import { createServer } from "node:http";
 import { readFileSync, readdirSync } from "node:fs";
@@ -152,6 +153,10 @@ function madeUpFleet(count) {
     send() {}
     close() {}
   };
+}
+
+/** Runs in the page. */
+function closePanels() {
   for (const key of ["layout.dock_open", "layout.side_open"]) localStorage.setItem(`skein.${key}`, "false");
 }
 
@@ -194,6 +199,20 @@ function cpu_s(root) {
   return sum(root);
 }
 
+/** Where the main thread's time went: the functions that took most themselves, in ms a second. */
+function printProfile({ nodes, samples, timeDeltas, startTime, endTime }) {
+  const at = new Map(nodes.map((node) => [node.id, node]));
+  const spent = new Map();
+  samples.forEach((id, i) => {
+    const { functionName, url, lineNumber, columnNumber } = at.get(id).callFrame;
+    const name = `${functionName || "(anonymous)"} ${url.split("/").at(-1)}:${lineNumber + 1}:${columnNumber + 1}`;
+    spent.set(name, (spent.get(name) ?? 0) + timeDeltas[i]);
+  });
+  const seconds = (endTime - startTime) / 1e6;
+  for (const [name, us] of [...spent].sort((a, b) => b[1] - a[1]).slice(0, Number(process.env.PROFILE)))
+    console.log(`${(us / 1000 / seconds).toFixed(1).padStart(7)} ms/s  ${name}`);
+}
+
 function serve(dist) {
   const server = createServer((request, response) => {
     const path = request.url === "/" ? "/index.html" : request.url.replace(/\?.*/, "");
@@ -218,10 +237,18 @@ async function measure(dist, count, scene) {
   });
   const page = context.pages()[0];
   await page.addInitScript(madeUpFleet, count);
+  // The page as it opens, or the map alone.
+  if (scene !== "table") await page.addInitScript(closePanels);
   await page.goto(`http://127.0.0.1:${server.address().port}/`);
   await page.waitForTimeout(kWarmUp_ms);
   if (scene === "zoomed") {
     // Nearer to a part of them: symbols, labels and slots at their largest.
+    await page.mouse.move(640, 330);
+    for (let i = 0; i < 3; i += 1) await page.mouse.wheel(0, -120);
+    await page.waitForTimeout(500);
+  }
+  if (scene === "followed") {
+    await page.keyboard.press("l");
     await page.mouse.move(640, 330);
     for (let i = 0; i < 3; i += 1) await page.mouse.wheel(0, -120);
     await page.waitForTimeout(500);
@@ -231,6 +258,10 @@ async function measure(dist, count, scene) {
   const busy_s = async () =>
     (await inspector.send("Performance.getMetrics")).metrics.find(({ name }) => name === "TaskDuration").value;
   await page.evaluate(watch);
+  if (process.env.PROFILE) {
+    await inspector.send("Profiler.enable");
+    await inspector.send("Profiler.start");
+  }
   const browser = Number(readdirSync("/proc").find((pid) => {
     try {
       return readFileSync(`/proc/${pid}/cmdline`, "utf8").includes(profile) && !readFileSync(`/proc/${pid}/cmdline`, "utf8").includes("--type=");
@@ -249,6 +280,7 @@ async function measure(dist, count, scene) {
     await page.waitForTimeout(kMeasured_ms);
   }
   const seen = await page.evaluate("window.seen");
+  if (process.env.PROFILE) printProfile((await inspector.send("Profiler.stop")).profile);
   const spent = { busy_s: (await busy_s()) - before.busy_s, cpu_s: cpu_s(browser) - before.cpu_s };
   await page.screenshot({ path: `${process.env.PICTURES ?? tmpdir()}/map-bench-${count}-${scene}.png` });
   await context.close();

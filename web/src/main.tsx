@@ -46,7 +46,7 @@ const connection = new Connection(
 
 followTheme();
 setInterval(() => {
-  store.now_ms.value = performance.now();
+  store.beat(performance.now());
 }, kBeat_ms);
 connection.start();
 

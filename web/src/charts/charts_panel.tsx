@@ -7,7 +7,7 @@ import type { PanelProps } from "../shell/panel_props";
 import { clock, utc } from "../units/format";
 import { ChartView } from "./chart_view";
 import { kCharts } from "./chart_list";
-import { cursor_s, hidden_charts, time_window } from "./charts_state";
+import { cursor_s, hidden_charts, showFlight, time_window } from "./charts_state";
 import { ChartsToolbar } from "./charts_toolbar";
 import { toCsv } from "./csv";
 import { drawnIds } from "./curves";
@@ -58,8 +58,7 @@ export function ChartsPanel({ station }: PanelProps) {
 
   const start_utime = roster?.start_utime ?? 0;
   useEffect(() => {
-    // Another flight: a part of the last one says nothing about it.
-    time_window.value = kAll;
+    showFlight(start_utime);
   }, [start_utime]);
   const revision = Math.floor(now_ms / kRedraw_ms);
   const events = store.events.value;
@@ -140,7 +139,11 @@ export function ChartsPanel({ station }: PanelProps) {
 
   return (
     <section class="charts-panel" aria-label="Charts">
-      <ChartsToolbar store={store} ids={series.ids} exportCsv={exportCsv} exportPng={exportPng} />
+      <ChartsToolbar
+        store={store}
+        ids={series.ids}
+        empty={series.count === 0 || charts.length === 0}
+        exportCsv={exportCsv} exportPng={exportPng} />
       <div
         class="charts"
         data-keys

@@ -5,6 +5,16 @@ import type { ColumnName } from "./flight_series";
 import { kAll, type TimeWindow } from "./time_window";
 
 export const time_window = signal<TimeWindow>(kAll);
+/** The flight that `time_window` is of, by its start. */
+let window_start_utime = 0;
+
+/** A part of another flight says nothing about this one: then all of it is shown. */
+export function showFlight(start_utime: number): void {
+  if (start_utime === window_start_utime) return;
+  window_start_utime = start_utime;
+  time_window.value = kAll;
+}
+
 /** Where the cursor is, in step on all charts; null: nowhere. */
 export const cursor_s = signal<number | null>(null);
 

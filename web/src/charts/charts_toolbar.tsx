@@ -17,11 +17,13 @@ const kWindows = [
 interface ChartsToolbarProps {
   store: Store;
   ids: readonly number[];
+  /** There is nothing to export. */
+  empty: boolean;
   exportCsv: () => void;
   exportPng: () => void;
 }
 
-export function ChartsToolbar({ store, ids, exportCsv, exportPng }: ChartsToolbarProps) {
+export function ChartsToolbar({ store, ids, empty, exportCsv, exportPng }: ChartsToolbarProps) {
   const window = time_window.value;
   const last_s = "last_s" in window ? window.last_s : null;
   return (
@@ -66,12 +68,13 @@ export function ChartsToolbar({ store, ids, exportCsv, exportPng }: ChartsToolba
       <button
         type="button"
         class="button"
+        disabled={empty}
         title="The time shown as a table: SI units, UTC and T+"
         onClick={exportCsv}
       >
         CSV
       </button>
-      <button type="button" class="button" title="All charts as a picture" onClick={exportPng}>
+      <button type="button" class="button" disabled={empty} title="All charts as a picture" onClick={exportPng}>
         PNG
       </button>
     </div>

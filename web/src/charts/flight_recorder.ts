@@ -12,6 +12,8 @@ const kLiveEvery_s = 0.5;
 /** As the bridge: what was not heard for so long is a gap. */
 const kOldAfter_s = 2;
 const kTryAgain_ms = 3000;
+/** Time that goes back so far is a recording that was wound back. */
+const kWoundBack_s = 2;
 
 export type Loading = { kind: "idle" } | { kind: "loading" } | { kind: "failed"; reason: string };
 
@@ -84,6 +86,7 @@ export class FlightRecorder {
   private appendLive(): void {
     const { fleet } = this.store;
     const t_s = fleet.motion?.t_s ?? -1;
+    if (t_s >= 0 && t_s < this.series.last_s() - kWoundBack_s) this.series = new FlightSeries(this.series.ids);
     if (t_s < 0 || t_s - this.series.last_s() < kLiveEvery_s) return;
     this.series.append(t_s, (id, name) => liveValue(fleet, id, name));
   }

@@ -94,6 +94,16 @@ test("takes a silent link for a dead one", () => {
   expect(last().closed).toBe(true);
 });
 
+test("gives up an attempt that nobody answers", () => {
+  vi.advanceTimersByTime(9999);
+  expect(state()).toBe("connecting");
+  vi.advanceTimersByTime(1);
+  expect(state()).toBe("waiting");
+  expect(last().closed).toBe(true);
+  vi.advanceTimersByTime(500);
+  expect(sockets).toHaveLength(2);
+});
+
 test("a late close of a socket that was given up changes nothing", () => {
   const first = last();
   first.opens();

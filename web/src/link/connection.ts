@@ -24,7 +24,10 @@ export interface ConnectionHandlers {
 
 const kFirstDelay_ms = 500;
 const kLongestDelay_ms = 5000;
-/** The bridge's own heartbeat comes every second: silence for this long is a dead link that TCP hasn't noticed. */
+/**
+ * The bridge's own heartbeat comes every second: silence for this long is a dead link that TCP hasn't noticed, or an attempt
+ * that nobody answers (browsers themselves wait for minutes).
+ */
 const kSilence_ms = 10_000;
 
 export class Connection {
@@ -43,6 +46,7 @@ export class Connection {
     const socket = this.connect();
     this.socket = socket;
     socket.binaryType = "arraybuffer";
+    this.expectData(socket);
     socket.onopen = () => {
       this.failures = 0;
       this.handlers.onState({ kind: "open" });

@@ -21,14 +21,21 @@ export function showBase(
     (layer) => {
       if (gone || layer === null) return;
       shown = layer;
-      // A map has edges and holes; something is wrong only while nothing of it comes.
+      // A map has edges and holes; something is wrong only when nothing comes of what was asked for last.
       let came = false;
+      let failed = false;
+      layer.on("loading", () => {
+        came = failed = false;
+      });
       layer.on("tileload", () => {
         came = true;
-        if (!gone) problem.value = "";
       });
       layer.on("tileerror", () => {
-        if (!came) complain("none of its tiles has come for this place");
+        failed = true;
+      });
+      layer.on("load", () => {
+        if (failed && !came) complain("none of its tiles has come for this place");
+        else if (came && !gone) problem.value = "";
       });
       layer.addTo(map);
     },

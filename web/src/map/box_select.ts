@@ -71,7 +71,7 @@ export class BoxSelect {
   };
 
   private readonly onMove = (event: PointerEvent) => {
-    if (this.from === null) return;
+    if (this.from === null || !event.isPrimary) return;
     const to = this.pixelOf(event);
     this.box.hidden = false;
     this.box.style.left = `${Math.min(this.from.x, to.x)}px`;
@@ -81,6 +81,7 @@ export class BoxSelect {
   };
 
   private readonly onUp = (event: PointerEvent) => {
+    if (!event.isPrimary) return;
     const from = this.from;
     this.endBox();
     if (from === null) return;

@@ -58,7 +58,8 @@ export class Camera {
     return this.map.containerPointToLatLng(this.freeMiddle());
   }
 
-  private centre(place: L.LatLng): void {
+  /** Brings a place into the middle of the part that no panel covers. */
+  centre(place: L.LatLng): void {
     const step = this.map.latLngToContainerPoint(place).subtract(this.freeMiddle());
     if (Math.hypot(step.x, step.y) >= kLeastStep_px) this.map.panBy(step.round(), { animate: false });
   }

@@ -114,6 +114,11 @@ export class FleetMap implements MapAccess {
     this.to_fit = true;
   }
 
+  centre(place: L.LatLng): void {
+    this.following.value = false;
+    this.camera.centre(place);
+  }
+
   frame(): LocalFrame | null {
     return this.local;
   }

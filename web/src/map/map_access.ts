@@ -19,6 +19,8 @@ export interface MapAccess {
   freeArea(): DOMRect;
   /** Shows the whole fleet. */
   fit(): void;
+  /** Brings a place into the middle of the free area, and follows nobody any more. */
+  centre(place: L.LatLng): void;
   /**
    * Whoever claims the map gets its clicks, and nothing is selected by them, until the returned function is called. One at a
    * time: a later claim ends the earlier one, which is told by `onLost`.

@@ -65,28 +65,33 @@ function MeasureHint({ map }: { map: FleetMap }) {
 
 /** Of the cursor; of the middle of the map while no cursor is over it. */
 function Coordinates({ map }: { map: FleetMap }) {
-  const cursor = useSignal<L.LatLng | null>(null);
-  const middle = useSignal<L.LatLng | null>(null);
+  const told = useSignal<{ of: "Cursor" | "Middle"; at: L.LatLng } | null>(null);
   useEffect(() => {
+    let cursor: L.Point | null = null;
+    const tell = () => {
+      // A map that moves on below a cursor that doesn't has another place there.
+      told.value =
+        cursor === null
+          ? { of: "Middle", at: map.middle() }
+          : { of: "Cursor", at: map.leaflet.containerPointToLatLng(cursor) };
+    };
     const onMove = (event: L.LeafletMouseEvent) => {
-      cursor.value = event.latlng;
+      cursor = event.containerPoint;
+      tell();
     };
     const onOut = () => {
-      cursor.value = null;
+      cursor = null;
+      tell();
     };
-    const onView = () => {
-      middle.value = map.middle();
-    };
-    onView();
-    map.leaflet.on("mousemove", onMove).on("mouseout", onOut).on("moveend zoomend resize", onView);
+    tell();
+    map.leaflet.on("mousemove", onMove).on("mouseout", onOut).on("moveend zoomend resize", tell);
     return () => {
-      map.leaflet.off("mousemove", onMove).off("mouseout", onOut).off("moveend zoomend resize", onView);
+      map.leaflet.off("mousemove", onMove).off("mouseout", onOut).off("moveend zoomend resize", tell);
     };
-  }, [map, cursor, middle]);
-  const at = cursor.value ?? middle.value;
-  if (at === null) return null;
+  }, [map, told]);
+  if (told.value === null) return null;
+  const { of, at } = told.value;
   const place = { latitude_deg: at.lat, longitude_deg: at.lng };
-  const of = cursor.value === null ? "Middle" : "Cursor";
   return (
     <dl class="coordinates" aria-label={`${of} of the map`}>
       <dt>{of}</dt>

@@ -1,6 +1,6 @@
 /** The UAVs as they are drawn in this frame: one sight an id, moved from frame to frame and never made again. */
 import { kFlown, kHasSlot } from "../link/frames";
-import type { Place } from "../state/fleet";
+import { kLinkLost, type Place } from "../state/fleet";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 import { identityOf } from "./colours";
@@ -76,14 +76,13 @@ export class Sights {
         sight.x < view.width_px + kMargin_px &&
         sight.y < view.height_px + kMargin_px;
       const s = fleet.statusRow(sight.id);
-      if (status !== null && s >= 0) {
-        sight.level = status.level[s];
-        sight.threat_id = status.level[s] === 0 ? 0 : status.level_with_id[s];
-        sight.lost = fleet.isLost(sight.id);
-        sight.uncertainty_m = status.horizontal_uncertainty_m[s];
-        sight.formation_id = status.formation_id[s];
-        sight.stranger = formations > 0 && (status.flags[s] & (kHasSlot | kFlown)) === 0;
-      }
+      const judged = status !== null && s >= 0;
+      sight.level = judged ? status.level[s] : 0;
+      sight.threat_id = judged && sight.level > 0 ? status.level_with_id[s] : 0;
+      sight.lost = judged && status.downlink[s] === kLinkLost;
+      sight.uncertainty_m = judged ? status.horizontal_uncertainty_m[s] : 0;
+      sight.formation_id = judged ? status.formation_id[s] : 0;
+      sight.stranger = judged && formations > 0 && (status.flags[s] & (kHasSlot | kFlown)) === 0;
       all.push(sight);
     }
     this.all = all;

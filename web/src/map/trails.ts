@@ -7,6 +7,8 @@ import { mercatorX, mercatorY, xOf, yOf, type Pixel, type View } from "./view";
 const kShortest_us = 1_000_000;
 /** A straight flight has a point this often. */
 const kLongest_us = 10_000_000;
+/** Points further apart than this have a time between them in which nothing was heard: nobody knows what it flew then. */
+const kGap_us = kLongest_us + 4_000_000;
 const kTurned_rad = 0.03;
 export const kLongestTrail_min = 30;
 /** Points nearer than this to one another look like one [px]. */
@@ -43,6 +45,7 @@ export class Trails {
         trail = { points: [], utimes: [], course_rad: 0 };
         this.by_id.set(id, trail);
       }
+      forgetAfter(trail, heard_utime);
       const since_us = heard_utime - (trail.utimes.at(-1) ?? -Infinity);
       const course_rad = motion.course_rad[row];
       const turned = Math.abs(Math.sin((course_rad - trail.course_rad) / 2)) * 2 > kTurned_rad;
@@ -51,7 +54,7 @@ export class Trails {
       trail.points.push(mercatorX(place.longitude_deg), mercatorY(place.latitude_deg));
       trail.utimes.push(heard_utime);
       trail.course_rad = course_rad;
-      forget(trail, heard_utime - kLongestTrail_min * 60e6);
+      forgetBefore(trail, heard_utime - kLongestTrail_min * 60e6);
     }
   }
 
@@ -102,8 +105,9 @@ export class Trails {
       const x = xOf(view, trail.points[2 * i] ?? 0);
       const y = yOf(view, trail.points[2 * i + 1] ?? 0);
       if (i > first) {
-        if (i < last && Math.abs(x - last_x) + Math.abs(y - last_y) < kLeastStep_px) continue;
-        const next = pathAt(i);
+        const gap = (trail.utimes[i] ?? 0) - (trail.utimes[i - 1] ?? 0) > kGap_us;
+        if (!gap && i < last && Math.abs(x - last_x) + Math.abs(y - last_y) < kLeastStep_px) continue;
+        const next = gap ? undefined : pathAt(i);
         if (next !== path) next?.moveTo(last_x, last_y);
         path = next;
         path?.lineTo(x, y);
@@ -113,7 +117,15 @@ export class Trails {
   }
 }
 
-function forget(trail: Trail, before_utime: number): void {
+/** A recording may be wound back. */
+function forgetAfter(trail: Trail, utime: number): void {
+  while ((trail.utimes.at(-1) ?? -Infinity) > utime) {
+    trail.utimes.pop();
+    trail.points.length -= 2;
+  }
+}
+
+function forgetBefore(trail: Trail, before_utime: number): void {
   const old = firstAfter(trail.utimes, before_utime);
   // In one go now and then: taking from the front moves all the rest.
   if (old < 64) return;

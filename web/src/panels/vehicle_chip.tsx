@@ -14,7 +14,7 @@ export function VehicleChip({ station, id }: { station: Station; id: number }) {
         store.select([id]);
         const place = placeOf(store, id);
         const at = place === null ? null : map.value?.place(place.east_m, place.north_m, place.up_m);
-        if (at) map.value?.leaflet.panTo(at);
+        if (at) map.value?.centre(at);
       }}
     >
       {callsign}

@@ -39,16 +39,19 @@ test("frames whose time stands still are no news", () => {
   expect(fleet.arrival_ms).toBe(3000);
 });
 
-test("a lost UAV is where the monitor thinks it is", () => {
+test("a lost UAV is where the monitor thinks it is, and flies on level between two of its reports", () => {
   const fleet = new Fleet();
-  fleet.take(motionFrame([6, 7], { speed_m_s: f32(50, 50) }), 0);
+  const climb_rad = Math.asin(0.6);
+  fleet.take(motionFrame([6, 7], { speed_m_s: f32(50, 50), climb_rad: f32(0, climb_rad) }), 0);
   fleet.take(
     statusFrame([7, 6], { downlink: Uint8Array.of(kLinkLost, 0), estimated_east_m: f32(900, 0) }),
     0,
   );
   expect(fleet.isLost(7)).toBe(true);
   expect(fleet.isLost(6)).toBe(false);
-  expect(fleet.placeAt(1, 1000).east_m).toBe(900);
+  expect(fleet.placeAt(1, 0).east_m).toBe(900);
+  expect(fleet.placeAt(1, 1000).east_m).toBeCloseTo(940, 3);
+  expect(fleet.placeAt(1, 1000).up_m).toBe(0);
   expect(fleet.placeAt(0, 1000).east_m).toBeCloseTo(50, 3);
 });
 

@@ -87,26 +87,31 @@ export class Fleet {
   }
 
   /**
-   * Where the UAV in a row of `motion` is at `now_ms`: between frames it is carried along its velocity; one that is lost
-   * is where the monitor thinks it is.
+   * Where the UAV in a row of `motion` is at `now_ms`: carried along its velocity since it was heard; one that is lost, since
+   * the monitor told where it thinks that it is.
    */
   placeAt(row: number, now_ms: number): Place {
     const motion = this.motion;
     if (motion === null) return { east_m: 0, north_m: 0, up_m: 0 };
-    const status_row = this.statusRow(motion.id[row]);
-    if (this.status !== null && status_row >= 0 && this.status.downlink[status_row] === kLinkLost) {
+    const { status } = this;
+    const s = this.statusRow(motion.id[row]);
+    const lost = status !== null && s >= 0 && status.downlink[s] === kLinkLost;
+    const told_utime = lost ? status.utime : motion.utime - motion.age_s[row] * 1e6;
+    const way_m = motion.speed_m_s[row] * this.since_s(told_utime, now_ms);
+    const level_m = way_m * Math.cos(motion.climb_rad[row]);
+    const east_m = level_m * Math.cos(motion.course_rad[row]);
+    const north_m = level_m * Math.sin(motion.course_rad[row]);
+    if (lost)
       return {
-        east_m: this.status.estimated_east_m[status_row],
-        north_m: this.status.estimated_north_m[status_row],
-        up_m: this.status.estimated_up_m[status_row],
+        east_m: status.estimated_east_m[s] + east_m,
+        north_m: status.estimated_north_m[s] + north_m,
+        // The monitor takes one that hears nothing for flying level.
+        up_m: status.estimated_up_m[s],
       };
-    }
-    const ahead_s = this.since_s(motion.utime - motion.age_s[row] * 1e6, now_ms);
-    const level_m = motion.speed_m_s[row] * Math.cos(motion.climb_rad[row]) * ahead_s;
     return {
-      east_m: motion.east_m[row] + level_m * Math.cos(motion.course_rad[row]),
-      north_m: motion.north_m[row] + level_m * Math.sin(motion.course_rad[row]),
-      up_m: motion.up_m[row] + motion.speed_m_s[row] * Math.sin(motion.climb_rad[row]) * ahead_s,
+      east_m: motion.east_m[row] + east_m,
+      north_m: motion.north_m[row] + north_m,
+      up_m: motion.up_m[row] + way_m * Math.sin(motion.climb_rad[row]),
     };
   }
 }

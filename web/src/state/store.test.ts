@@ -41,9 +41,30 @@ function filled(...messages: object[]): Store {
 test("formations, paths and statuses come and go", () => {
   const of = (type: string) => ({ type, formation_id: 4, mode: 1, waypoints: [], line: [], slots: [] });
   const store = filled(of("formation"), of("path"), of("status"));
+  store.beat(0);
   expect(store.formations.value.has(4) && store.paths.value.has(4) && store.statuses.value.has(4)).toBe(true);
   store.takeText(JSON.stringify({ type: "formation_removed", formation_id: 4 }));
   expect(store.formations.value.size + store.paths.value.size + store.statuses.value.size).toBe(0);
+});
+
+test("however often statuses come, they are shown on the beat", () => {
+  const status = (mode: number) => ({ type: "status", formation_id: 4, mode, slots: [] });
+  const store = filled(status(0));
+  store.beat(0);
+  const shown = store.statuses.value;
+  for (const mode of [1, 2, 3]) store.takeText(JSON.stringify(status(mode)));
+  expect(store.statuses.value).toBe(shown);
+  store.beat(250);
+  expect(store.statuses.value.get(4)?.mode).toBe(3);
+  // One that is gone, or of a bridge that is gone, doesn't come back with the next beat.
+  store.takeText(JSON.stringify(status(1)));
+  store.takeText(JSON.stringify({ type: "formation_removed", formation_id: 4 }));
+  store.beat(500);
+  expect(store.statuses.value.size).toBe(0);
+  store.takeText(JSON.stringify(status(1)));
+  store.takeText(JSON.stringify(kHello));
+  store.beat(750);
+  expect(store.statuses.value.size).toBe(0);
 });
 
 test("events stand newest first, each once, the last 1000", () => {

@@ -1,5 +1,5 @@
 /** What the page knows: small things as signals, bulk telemetry in `fleet`. Views only read; `takeText` and `takeFrame` write. */
-import { computed, signal } from "@preact/signals";
+import { batch, computed, signal } from "@preact/signals";
 import type { ConnectionState } from "../link/connection";
 import type { Frame } from "../link/frames";
 import type {
@@ -30,7 +30,9 @@ export class Store {
   readonly roster = signal<Roster | null>(null);
   readonly formations = signal<ReadonlyMap<number, Formation>>(new Map());
   readonly paths = signal<ReadonlyMap<number, Path>>(new Map());
+  /** Published by `beat`: each formation tells five times a second, and panels would be drawn as often for each of them. */
   readonly statuses = signal<ReadonlyMap<number, FormationStatus>>(new Map());
+  private readonly newest_statuses = new Map<number, FormationStatus>();
   readonly heartbeats = signal<ReadonlyMap<string, Heartbeat>>(new Map());
   /** Null: the bridge has heard none. */
   readonly alarms = signal<AlarmList | null>(null);
@@ -71,12 +73,13 @@ export class Store {
         this.formations.value = withoutEntry(this.formations.value, message.formation_id);
         this.paths.value = withoutEntry(this.paths.value, message.formation_id);
         this.statuses.value = withoutEntry(this.statuses.value, message.formation_id);
+        this.newest_statuses.delete(message.formation_id);
         break;
       case "path":
         this.paths.value = withEntry(this.paths.value, message.formation_id, message);
         break;
       case "status":
-        this.statuses.value = withEntry(this.statuses.value, message.formation_id, message);
+        this.newest_statuses.set(message.formation_id, message);
         break;
       case "event":
         this.takeEvent(message);
@@ -97,6 +100,17 @@ export class Store {
         this.onAck(message);
         break;
     }
+  }
+
+  /** A few times a second: what goes with time, or came too often to be shown at once, is drawn again. */
+  beat(now_ms: number): void {
+    batch(() => {
+      if (this.newest_statuses.size > 0) {
+        this.statuses.value = new Map([...this.statuses.value, ...this.newest_statuses]);
+        this.newest_statuses.clear();
+      }
+      this.now_ms.value = now_ms;
+    });
   }
 
   /** Selects these UAVs and no others. */
@@ -147,6 +161,7 @@ export class Store {
     this.formations.value = new Map();
     this.paths.value = new Map();
     this.statuses.value = new Map();
+    this.newest_statuses.clear();
     this.heartbeats.value = new Map();
     this.alarms.value = null;
     this.silent_nodes.value = [];

@@ -2,9 +2,9 @@
 import type { VNode } from "preact";
 import { Chain, kLinkNames, Lamp } from "../panels/icons";
 import type { UavRow } from "../state/rows";
-import type { Station } from "../shell/station";
 import { compass, fixed, kNone } from "../units/format";
 import { altitude, distance, kAltitudeReference, speed } from "../units/quantities";
+import type { CellContext } from "./cell_context";
 import { Chip } from "./chip";
 import { LinkButtons } from "./link_buttons";
 import { modeOf } from "./mode";
@@ -22,17 +22,12 @@ export interface Column {
   /** Least width; what is left over is shared. */
   width_px: number;
   align: "left" | "centre" | "right";
-  sort: SortKey;
+  /** Null: it can't be sorted by. */
+  sort: SortKey | null;
   /** Sorted up at first: the smallest is on top. */
   rising: boolean;
   class?: string;
   cell: (row: UavRow, context: CellContext) => VNode | string;
-}
-
-export interface CellContext {
-  station: Station;
-  /** Of controls in the cell: those of the row that the keyboard is at can be reached by Tab. */
-  tab_index: 0 | -1;
 }
 
 /** Below this the link is as good as it can be, and its age is no news [s]. */
@@ -289,6 +284,6 @@ export const kLinkColumn: Column = {
   meaning: "Cuts and restores the simulated data link",
   width_px: 130,
   align: "centre",
-  sort: "worst",
+  sort: null,
   cell: (row, context) => <LinkButtons key={row.id} row={row} {...context} />,
 };

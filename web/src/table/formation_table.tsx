@@ -11,6 +11,8 @@ import { UavGrid } from "./uav_grid";
 import { useWidth } from "./use_width";
 
 const kSimulator = "fleet-simulator";
+/** A pointer or a focus that rests in the table for so long isn't somebody at work: the worst must come first again. */
+const kHeldFor_ms = 15_000;
 
 /** The paper's Formation Information: a row a UAV, worst first. */
 export function FormationTable({ station }: PanelProps) {
@@ -25,7 +27,11 @@ export function FormationTable({ station }: PanelProps) {
   const vehicles = useMemo(() => new Map(roster?.vehicles.map((vehicle) => [vehicle.id, vehicle])), [roster]);
 
   const wish = { roster, order: order.value, show: show.value, text: filter_text.value };
-  const held = pointer_in.value || focus_in.value;
+  const touched_ms = useRef(-Infinity);
+  const touch = () => {
+    touched_ms.current = performance.now();
+  };
+  const held = (pointer_in.value || focus_in.value) && now_ms - touched_ms.current < kHeldFor_ms;
   list.update(store.fleet, wish, store.formations.value, store.statuses.value, now_ms, held);
 
   const hidden = hidden_columns.value;
@@ -46,8 +52,14 @@ export function FormationTable({ station }: PanelProps) {
         ref={scroller}
         onPointerEnter={() => (pointer_in.value = true)}
         onPointerLeave={() => (pointer_in.value = false)}
-        onFocusIn={() => (focus_in.value = true)}
+        onFocusIn={() => {
+          focus_in.value = true;
+          touch();
+        }}
         onFocusOut={() => (focus_in.value = false)}
+        onPointerMove={touch}
+        onKeyDown={touch}
+        onScroll={touch}
       >
         <UavGrid
           station={station}

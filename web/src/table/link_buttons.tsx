@@ -1,6 +1,6 @@
 import { CommandButton } from "../panels/command_button";
 import type { UavRow } from "../state/rows";
-import type { CellContext } from "./columns";
+import type { CellContext } from "./cell_context";
 
 /** Both are always there: what telemetry says lags behind what was commanded by seconds. */
 export function LinkButtons({ row, station, tab_index }: CellContext & { row: UavRow }) {

@@ -2,7 +2,7 @@ import { CommandButton } from "../panels/command_button";
 import { phaseOf } from "../payload/payload_requests";
 import type { UavRow } from "../state/rows";
 import { kNone } from "../units/format";
-import type { CellContext } from "./columns";
+import type { CellContext } from "./cell_context";
 
 /** A switch that shows what telemetry says; while it is waited for, the knob stands in the middle. */
 export function PayloadCell({ row, station, tab_index }: CellContext & { row: UavRow }) {

@@ -3,24 +3,26 @@ import { kHasSlot } from "../link/frames";
 import type { Formation, Vehicle } from "../link/messages";
 import { kLinkLate, kLinkLost, type Fleet } from "../state/fleet";
 
-export type SortKey =
-  | "worst"
-  | "id"
-  | "level"
-  | "downlink"
-  | "uplink"
-  | "forward"
-  | "left"
-  | "up"
-  | "nearest"
-  | "horizontal"
-  | "vertical"
-  | "tau"
-  | "altitude"
-  | "speed"
-  | "course"
-  | "payload"
-  | "mode";
+export const kSortKeys = [
+  "worst",
+  "id",
+  "level",
+  "downlink",
+  "uplink",
+  "forward",
+  "left",
+  "up",
+  "nearest",
+  "horizontal",
+  "vertical",
+  "tau",
+  "altitude",
+  "speed",
+  "course",
+  "payload",
+  "mode",
+] as const;
+export type SortKey = (typeof kSortKeys)[number];
 
 export interface Order {
   key: SortKey;

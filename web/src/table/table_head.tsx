@@ -13,16 +13,17 @@ export function TableHead({ columns, order, setOrder }: TableHeadProps) {
     <thead role="rowgroup">
       <tr role="row" aria-rowindex={1}>
         {columns.map((column) => {
-          const sorted = order.key === column.sort;
+          const { sort } = column;
+          const sorted = order.key === sort;
           const up = column.rising !== order.reversed;
           return (
             <th
               key={column.id}
               role="columnheader"
               class={column.align}
-              aria-sort={sorted ? (up ? "ascending" : "descending") : "none"}
+              aria-sort={sort === null ? undefined : sorted ? (up ? "ascending" : "descending") : "none"}
             >
-              {column.id === "link" ? (
+              {sort === null ? (
                 <span class="head-plain" title={column.meaning}>
                   <HeadText column={column} />
                 </span>
@@ -33,7 +34,7 @@ export function TableHead({ columns, order, setOrder }: TableHeadProps) {
                   onClick={() => {
                     setOrder(
                       !sorted
-                        ? { key: column.sort, reversed: false }
+                        ? { key: sort, reversed: false }
                         : order.reversed
                           ? kWorstFirst
                           : { ...order, reversed: true },

@@ -1,11 +1,13 @@
 /** How this browser's person likes the table. */
 import { signal } from "@preact/signals";
 import { remembered } from "../state/remembered";
-import { kWorstFirst, type Order, type Show, type SortKey } from "./row_order";
+import { kSortKeys, kWorstFirst, type Order, type Show } from "./row_order";
 
 export const order = remembered<Order>("table.order", kWorstFirst, (stored) => {
   const { key, reversed } = (stored ?? {}) as Partial<Order>;
-  return typeof key === "string" && typeof reversed === "boolean" ? { key: key as SortKey, reversed } : null;
+  return key !== undefined && kSortKeys.includes(key) && typeof reversed === "boolean"
+    ? { key, reversed }
+    : null;
 });
 
 /** Ids of columns. */

@@ -31,7 +31,7 @@ export function TableToolbar({ station, shown, held }: TableToolbarProps) {
       )}
       <SortChoice />
       {held && (
-        <span class="hint" title="Rows stay where they are while the pointer or the focus is in the table">
+        <span class="hint" title="Rows stay where they are while somebody is at the table: until 15 s after the last move or key">
           Order held
         </span>
       )}

@@ -149,7 +149,7 @@ function centreMap(station: Station, id: number): void {
   const row = store.fleet.motionRow(id);
   const map = station.map.value;
   if (row < 0 || map === null) return;
-  const { east_m, north_m } = store.fleet.placeAt(row, performance.now());
-  const place = map.place(east_m, north_m);
-  if (place !== null) map.leaflet.panTo(place);
+  const { east_m, north_m, up_m } = store.fleet.placeAt(row, performance.now());
+  const place = map.place(east_m, north_m, up_m);
+  if (place !== null) map.centre(place);
 }
