@@ -254,7 +254,7 @@ async function measure(dist, count, scene) {
     await page.waitForTimeout(500);
   }
   const inspector = await context.newCDPSession(page);
-  await inspector.send("Performance.enable");
+  await inspector.send("Performance.enable", { timeDomain: "threadTicks" });
   const busy_s = async () =>
     (await inspector.send("Performance.getMetrics")).metrics.find(({ name }) => name === "TaskDuration").value;
   await page.evaluate(watch);

@@ -143,7 +143,9 @@ export function ChartsPanel({ station }: PanelProps) {
         store={store}
         ids={series.ids}
         empty={series.count === 0 || charts.length === 0}
-        exportCsv={exportCsv} exportPng={exportPng} />
+        exportCsv={exportCsv}
+        exportPng={exportPng}
+      />
       <div
         class="charts"
         data-keys

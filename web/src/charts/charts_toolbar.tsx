@@ -74,7 +74,13 @@ export function ChartsToolbar({ store, ids, empty, exportCsv, exportPng }: Chart
       >
         CSV
       </button>
-      <button type="button" class="button" disabled={empty} title="All charts as a picture" onClick={exportPng}>
+      <button
+        type="button"
+        class="button"
+        disabled={empty}
+        title="All charts as a picture"
+        onClick={exportPng}
+      >
         PNG
       </button>
     </div>

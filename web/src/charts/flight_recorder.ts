@@ -86,7 +86,8 @@ export class FlightRecorder {
   private appendLive(): void {
     const { fleet } = this.store;
     const t_s = fleet.motion?.t_s ?? -1;
-    if (t_s >= 0 && t_s < this.series.last_s() - kWoundBack_s) this.series = new FlightSeries(this.series.ids);
+    if (t_s >= 0 && t_s < this.series.last_s() - kWoundBack_s)
+      this.series = new FlightSeries(this.series.ids);
     if (t_s < 0 || t_s - this.series.last_s() < kLiveEvery_s) return;
     this.series.append(t_s, (id, name) => liveValue(fleet, id, name));
   }

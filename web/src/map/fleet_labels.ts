@@ -38,6 +38,8 @@ export interface LeaderSight extends Pixel {
 /** What is to be written beside a symbol. */
 interface Caption {
   key: string;
+  /** Of a UAV's. */
+  sight?: Sight;
   at: Pixel;
   name: string;
   /** Second line, "": none. */
@@ -62,6 +64,7 @@ export interface Labelled {
 
 interface Shown {
   key: string;
+  sight: Sight | undefined;
   label: PlacedLabel;
   image: TextImage;
 }
@@ -82,14 +85,14 @@ export class FleetLabels {
       this.placed_ms = now_ms;
       this.place(labelled, now_ms);
     }
-    const at = new Map<string, Pixel>();
-    for (const sight of labelled.uavs) at.set(keyOfUav(sight.id), sight);
-    for (const leader of labelled.leaders) at.set(keyOfLeader(leader.formation_id), leader);
-    for (const waypoint of labelled.waypoints) at.set(keyOfWaypoint(waypoint), waypoint);
     const { ratio } = this.texts;
-    for (const { key, label, image } of this.shown) {
-      const symbol = at.get(key);
-      if (symbol === undefined) continue;
+    // Sights move themselves; leaders and waypoints are new ones in each frame.
+    const others = new Map<string, Pixel>();
+    for (const leader of labelled.leaders) others.set(keyOfLeader(leader.formation_id), leader);
+    for (const waypoint of labelled.waypoints) others.set(keyOfWaypoint(waypoint), waypoint);
+    for (const { key, label, image, sight } of this.shown) {
+      const symbol = sight ?? others.get(key);
+      if (symbol === undefined || sight?.in_view === false) continue;
       const x = Math.round((symbol.x + label.dx) * ratio) / ratio;
       const y = Math.round((symbol.y + label.dy) * ratio) / ratio;
       context.drawImage(image.image, x, y, image.width, image.height);
@@ -125,7 +128,9 @@ export class FleetLabels {
     this.placed = new Map(labels.map((label) => [label.key, label]));
     this.shown = labels.flatMap((label) => {
       const caption = by_key.get(label.key);
-      return caption === undefined ? [] : [{ key: label.key, label, image: this.imageOf(caption, label) }];
+      if (caption === undefined) return [];
+      const { key, sight } = caption;
+      return [{ key, sight, label, image: this.imageOf(caption, label) }];
     });
     this.texts.sweep();
   }
@@ -133,6 +138,7 @@ export class FleetLabels {
   private captionOf(sight: Sight, now_ms: number): Caption {
     return {
       key: keyOfUav(sight.id),
+      sight,
       at: sight,
       quiet: false,
       name: this.store.callsign(sight.id),

@@ -60,6 +60,11 @@ export class FleetLayer {
     this.overlay.align(view);
   }
 
+  /** Of those that were drawn last. */
+  get fastest_m_s(): number {
+    return this.sights.fastest_m_s;
+  }
+
   /** The UAV nearest to a point of the map, null: none is within reach. */
   pick(point: Pixel, reach_px: number): number | null {
     let nearest: { id: number; distance: number } | null = null;

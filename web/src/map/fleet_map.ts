@@ -12,6 +12,7 @@ import { FleetLayer } from "./fleet_layer";
 import { localGridStep_m } from "./grid";
 import { base_map, layers, trail_min, trails_of } from "./layers";
 import { GroundLayer } from "./ground_layer";
+import { fleetInterval_ms, groundInterval_ms, LayerClock } from "./layer_clock";
 import type { EnuPoint, MapAccess, MapTool } from "./map_access";
 import { leafletMap } from "./leaflet_map";
 import { MeasureTool } from "./measure_tool";
@@ -20,15 +21,6 @@ import { Trails } from "./trails";
 import { neighbourOf } from "./neighbour";
 import { pixelsPerMetre, viewOf, type View } from "./view";
 
-const kGroundInterval_ms = 500;
-/** A map that moves takes what was drawn along, so that it need not be drawn in every frame. */
-const kMovedInterval_ms = 80;
-const kLongestMovedInterval_ms = 400;
-/** A fleet on a map that stands still moves by a pixel or so in this time. */
-const kFleetInterval_ms = 30;
-/** Where drawing is slow (no GPU, a busy machine), it leaves this part of the time to everything else, within reason. */
-const kIdlePart = 0.5;
-const kLongestFleetInterval_ms = 200;
 const kWaitForSlots_ms = 1500;
 /** A UAV is hit when its middle is this near; the nearest counts. */
 const kMouse_px = 22;
@@ -59,13 +51,8 @@ export class FleetMap implements MapAccess {
   private local: LocalFrame | null = null;
   private tool: MapTool | null = null;
   private start_utime = 0;
-  private ground_drawn_ms = -Infinity;
-  private fleet_drawn_ms = -Infinity;
-  private ground_cost_ms = 0;
-  private fleet_cost_ms = 0;
-  /** What the last frame has drawn. */
-  private drew: "ground" | "fleet" | null = null;
-  private ground_old = true;
+  private readonly ground_clock = new LayerClock();
+  private readonly fleet_clock = new LayerClock();
   /** The map is to be fitted; done when the fleet and its slots are known, or the fleet alone for a while. */
   private to_fit = true;
   private fleet_seen_ms = Infinity;
@@ -115,7 +102,7 @@ export class FleetMap implements MapAccess {
   }
 
   centre(place: L.LatLng): void {
-    this.following.value = false;
+    this.stayHere();
     this.camera.centre(place);
   }
 
@@ -139,8 +126,14 @@ export class FleetMap implements MapAccess {
   }
 
   pan(x_px: number, y_px: number): void {
-    this.following.value = false;
+    this.stayHere();
     this.leaflet.panBy([x_px, y_px], { animate: false });
+  }
+
+  /** A person has chosen what to look at. */
+  private stayHere(): void {
+    this.following.value = false;
+    this.to_fit = false;
   }
 
   /** Selects the next UAV of the roster, or the one before it, and brings it into sight. */
@@ -177,15 +170,17 @@ export class FleetMap implements MapAccess {
   }
 
   zoom(steps: number): void {
+    this.to_fit = false;
     this.leaflet.setZoom(this.leaflet.getZoom() + steps);
   }
 
   private listen(container: HTMLElement): void {
-    this.leaflet.on("move zoom resize", () => {
-      this.ground_old = true;
-    });
+    const redraw = () => {
+      this.ground_clock.old = this.fleet_clock.old = true;
+    };
+    this.leaflet.on("move zoom resize", redraw);
     this.leaflet.on("dragstart", () => {
-      this.following.value = false;
+      this.stayHere();
     });
     this.leaflet.on("click", (event) => {
       if (this.tool !== null) return;
@@ -194,6 +189,13 @@ export class FleetMap implements MapAccess {
       const { ctrlKey, metaKey, shiftKey } = event.originalEvent;
       if (id !== null && (ctrlKey || metaKey || shiftKey)) this.store.toggleSelected(id);
       else this.store.select(id === null ? [] : [id]);
+    });
+    // A long press, where there is no Ctrl key; or the other button of the mouse.
+    this.leaflet.on("contextmenu", (event) => {
+      if (this.tool !== null) return;
+      event.originalEvent.preventDefault();
+      const id = this.fleet.pick(event.containerPoint, kFinger_px);
+      if (id !== null) this.store.toggleSelected(id);
     });
     const resized = new ResizeObserver(() => this.leaflet.invalidateSize({ animate: false }));
     resized.observe(container);
@@ -207,14 +209,14 @@ export class FleetMap implements MapAccess {
       theme.subscribe(() => {
         this.colours = readColours();
         this.land.paint(this.colours);
-        this.ground_old = true;
+        redraw();
       }),
       effect(() => showBase(this.leaflet, this.store.hello.value, base_map.value, this.base_problem)),
       effect(() => {
-        // Whatever of these changes, the ground is to be drawn again.
+        // Whatever of these changes, all is to be drawn again.
         for (const { shown } of Object.values(layers)) void shown.value;
         void [trails_of.value, trail_min.value, this.store.selection.value];
-        this.ground_old = true;
+        redraw();
       }),
     );
   }
@@ -243,39 +245,27 @@ export class FleetMap implements MapAccess {
       else if (this.following.peek()) this.camera.follow(this.local, now_ms);
     }
     const view = viewOf(this.leaflet);
-    // What a drawn frame costs shows in when the next one comes.
-    if (this.drew === "fleet") this.fleet_cost_ms = now_ms - this.fleet_drawn_ms;
-    if (this.drew === "ground") this.ground_cost_ms = now_ms - this.ground_drawn_ms;
-    this.drew = null;
-    if (this.groundIsDue(now_ms)) {
-      this.ground_old = false;
-      this.ground_drawn_ms = now_ms;
-      this.drew = "ground";
+    this.ground_clock.tick(now_ms);
+    this.fleet_clock.tick(now_ms);
+    // One of both in a frame, so that neither makes a frame long.
+    const ground_due = this.ground_clock.isDue(now_ms, groundInterval_ms(this.ground_clock));
+    const speed_px_s = this.fleet.fastest_m_s * pixelsPerMetre(view, this.local?.origin.latitude_deg ?? 0);
+    const fleet_due =
+      !ground_due && this.fleet_clock.isDue(now_ms, fleetInterval_ms(this.fleet_clock, speed_px_s));
+    if (ground_due) {
+      this.ground_clock.drawn(now_ms);
       this.ground.draw(view, this.local, this.colours);
       this.measureScale(view);
     } else {
       this.ground.align(view);
     }
-    // One of both in a frame, so that neither makes a frame long.
-    if (this.drew === null && now_ms - this.fleet_drawn_ms >= this.fleetInterval_ms()) {
-      this.fleet_drawn_ms = now_ms;
-      this.drew = "fleet";
+    if (fleet_due) {
+      this.fleet_clock.drawn(now_ms);
       this.fleet.draw(view, this.local, this.colours, now_ms);
     } else {
       this.fleet.align(view);
     }
   };
-
-  private groundIsDue(now_ms: number): boolean {
-    const fair_ms = Math.max(kMovedInterval_ms, 4 * this.ground_cost_ms);
-    const interval_ms = this.ground_old ? Math.min(fair_ms, kLongestMovedInterval_ms) : kGroundInterval_ms;
-    return now_ms - this.ground_drawn_ms >= interval_ms;
-  }
-
-  private fleetInterval_ms(): number {
-    const fair_ms = this.fleet_cost_ms / (1 - kIdlePart);
-    return Math.min(Math.max(kFleetInterval_ms, fair_ms), kLongestFleetInterval_ms);
-  }
 
   private fitNow(frame: LocalFrame, now_ms: number): void {
     if (!this.camera.fit(frame, now_ms)) return;

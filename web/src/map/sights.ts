@@ -38,6 +38,8 @@ export class Sights {
   all: readonly Sight[] = [];
   /** Those that are to be drawn. */
   visible: readonly Sight[] = [];
+  /** Of those that are to be drawn. */
+  fastest_m_s = 0;
 
   get(id: number): Sight | undefined {
     return this.by_id.get(id);
@@ -87,6 +89,7 @@ export class Sights {
     }
     this.all = all;
     this.visible = all.filter((sight) => sight.in_view);
+    this.fastest_m_s = this.visible.reduce((most, { speed_m_s }) => Math.max(most, speed_m_s), 0);
     if (this.by_id.size > all.length) this.forget(all);
   }
 

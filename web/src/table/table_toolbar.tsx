@@ -31,7 +31,10 @@ export function TableToolbar({ station, shown, held }: TableToolbarProps) {
       )}
       <SortChoice />
       {held && (
-        <span class="hint" title="Rows stay where they are while somebody is at the table: until 15 s after the last move or key">
+        <span
+          class="hint"
+          title="Rows stay where they are while somebody is at the table: until 15 s after the last move or key"
+        >
           Order held
         </span>
       )}
