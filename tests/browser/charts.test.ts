@@ -1,16 +1,14 @@
 /** Charts: the flight since its start for a page that comes late, zoom, cursor in step, events, and files to take away. */
 import { readFileSync } from "node:fs";
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
-import { kPageUrl, Station } from "./station";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Screen, until } from "./screen";
+import { explain, kPageUrl, Station } from "./station";
 
 const station = new Station({ scenario: "charts.json" });
 let screen: Screen;
 
 /** The flight has lasted so long when the page comes. */
 const kLate_s = 6;
-const until = (what: () => Promise<void> | void, timeout = 15_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
 
 interface State {
   vehicles: { id: number; up_m: number | null; payload_on: boolean }[];
@@ -51,32 +49,8 @@ async function timeShown(): Promise<[number, number]> {
   };
   return [await at(box.x + 1), await at(box.x + box.width - 2)];
 }
-/** How many pixels of the curves' own colour a chart has in each tenth of its width. */
-const inked = (column: string, id: number) =>
-  chart(column)
-    .locator("canvas")
-    .evaluate((canvas: HTMLCanvasElement, identity) => {
-      const hex = getComputedStyle(document.documentElement)
-        .getPropertyValue(`--identity-${identity}`)
-        .trim();
-      const [red, green, blue] = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-      const { data } = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height) ?? {
-        data: [],
-      };
-      const tenths = new Array<number>(10).fill(0);
-      for (let i = 0; i < data.length; i += 4) {
-        if (data[i] !== red || data[i + 1] !== green || data[i + 2] !== blue) continue;
-        const tenth = Math.floor((((i / 4) % canvas.width) / canvas.width) * 10);
-        tenths[tenth] = (tenths[tenth] ?? 0) + 1;
-      }
-      return tenths;
-    }, id);
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
+/** How many pixels of a UAV's curve a chart has in each tenth of its width. */
+const inked = (column: string, id: number) => screen.ink(`[data-chart="${column}"] canvas`, `identity-${id}`);
 
 beforeAll(async () => {
   station.start();
@@ -98,7 +72,7 @@ afterAll(async () => {
 });
 
 test("a page that comes late draws the flight since its start, of all UAVs", async () => {
-  explain();
+  explain(station);
   await chart("tau_s").waitFor();
   expect(await screen.page.locator(".chart figcaption").allInnerTexts()).toEqual([
     "Altitude m ENU",
@@ -127,7 +101,7 @@ test("a page that comes late draws the flight since its start, of all UAVs", asy
 });
 
 test("the values beside a chart are those at the cursor, in step on all charts", async () => {
-  explain();
+  explain(station);
   const box = await over("speed_m_s").boundingBox();
   if (box === null) throw new Error("no chart");
   await screen.page.mouse.move(box.x + box.width / 2, box.y + 20);
@@ -147,7 +121,7 @@ test("the values beside a chart are those at the cursor, in step on all charts",
 });
 
 test("an event is a mark that tells what happened", async () => {
-  explain();
+  explain(station);
   const tip = chart("up_m").locator(".chart-tip");
   const box = await over("up_m").boundingBox();
   if (box === null) throw new Error("no chart");
@@ -160,12 +134,14 @@ test("an event is a mark that tells what happened", async () => {
 });
 
 test("dragging, the wheel, keys and buttons zoom all charts", async () => {
-  explain();
+  explain(station);
   const box = await over("course_rad").boundingBox();
   if (box === null) throw new Error("no chart");
   await screen.page.mouse.move(box.x + box.width * 0.25, box.y + 20);
   await screen.page.mouse.down();
-  await screen.page.mouse.move(box.x + box.width * 0.75, box.y + 20, { steps: 4 });
+  await screen.page.mouse.move(box.x + box.width * 0.75, box.y + 20, {
+    steps: 4,
+  });
   await screen.page.mouse.up();
   let closer: [number, number] = [0, 0];
   await until(async () => {
@@ -192,7 +168,7 @@ test("dragging, the wheel, keys and buttons zoom all charts", async () => {
 });
 
 test("a selection is drawn instead, and charts can be left out", async () => {
-  explain();
+  explain(station);
   await screen.page.getByRole("tab", { name: "Table" }).click();
   await screen.row(2).locator(".uav-name").click();
   await screen.page.getByRole("tab", { name: "Charts" }).click();
@@ -206,7 +182,7 @@ test("a selection is drawn instead, and charts can be left out", async () => {
 });
 
 test("the CSV has what the API has, and the PNG is a picture", async () => {
-  explain();
+  explain(station);
   const [csv] = await Promise.all([screen.page.waitForEvent("download"), screen.button("CSV").click()]);
   expect(csv.suggestedFilename()).toMatch(/^skein-\d{8}T\d{6}Z\.csv$/);
   const lines = readFileSync(await csv.path(), "utf8")
@@ -233,7 +209,7 @@ test("the CSV has what the API has, and the PNG is a picture", async () => {
 });
 
 test("axe finds no barrier in either theme", async () => {
-  explain();
+  explain(station);
   await screen.picture("charts", 1920, 1080, "dark");
   for (const theme of ["dark", "light"] as const) {
     await screen.picture("charts", 1280, 720, theme);

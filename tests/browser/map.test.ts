@@ -1,31 +1,12 @@
-/** The map: threats, trails, tools, layers and base maps, as a person at the page sees them. */
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
-import { Station } from "./station";
-import { writePmtiles, writeTileFolder } from "./tiles_for_tests";
+/** The map: threats, trails, tools and layers, as a person at the page sees them. */
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Screen, until, type Centre } from "./screen";
+import { explain, Station } from "./station";
 
-const kFolder = mkdtempSync(`${tmpdir()}/skein-tiles-`);
-const kFolderColour = [90, 140, 60] as const;
-const kArchiveColour = [60, 90, 150] as const;
-
-const station = new Station({ scenario: "map.json", bridge: ["--tiles", `${kFolder}/county`] });
-const with_archive = new Station({ scenario: "map.json", bridge: ["--tiles", `${kFolder}/area.pmtiles`] });
+const station = new Station({ scenario: "map.json" });
 let screen: Screen;
 
-const until = (what: () => Promise<void> | void, timeout = 15_000) =>
-  vi.waitFor(what, { timeout, interval: 100 });
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n${with_archive.log()}\n`);
-  });
-}
-
 beforeAll(async () => {
-  writeTileFolder(`${kFolder}/county`, 40.09, 116.58, kFolderColour);
-  writePmtiles(`${kFolder}/area.pmtiles`, kArchiveColour);
   station.start("web-bridge");
   await station.answers();
   screen = await Screen.open();
@@ -33,45 +14,29 @@ beforeAll(async () => {
 
 afterAll(async () => {
   await screen?.close();
-  await Promise.all([station.stopAll(), with_archive.stopAll()]);
-  rmSync(kFolder, { recursive: true, force: true });
+  await station.stopAll();
 });
 
 /** How many pixels of a canvas of the map have a colour of the stylesheet; all that are drawn at all when none is named. */
-function pixels(canvas: "fleet" | "ground", token?: string): Promise<number> {
-  return screen.page.evaluate(
-    ([name, wanted]) => {
-      const drawn = document.querySelector<HTMLCanvasElement>(`canvas.${name}`);
-      if (drawn === null) return 0;
-      const copy = new OffscreenCanvas(drawn.width, drawn.height);
-      const context = copy.getContext("2d", { willReadFrequently: true });
-      if (context === null) return 0;
-      context.drawImage(drawn, 0, 0);
-      const hex = getComputedStyle(document.documentElement).getPropertyValue(`--${wanted}`).trim();
-      const rgb = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
-      const { data } = context.getImageData(0, 0, copy.width, copy.height);
-      let count = 0;
-      for (let i = 0; i < data.length; i += 4) {
-        if (data[i + 3] === 0) continue;
-        if (wanted === "" || rgb.every((value, c) => Math.abs((data[i + c] ?? 0) - value) < 8)) count += 1;
-      }
-      return count;
-    },
-    [canvas, token ?? ""] as const,
-  );
-}
+const pixels = async (canvas: "fleet" | "ground", token?: string) =>
+  (await screen.ink(`canvas.${canvas}`, token, 7)).reduce((sum, tenth) => sum + tenth, 0);
 
 const menu = () => screen.button("Layers of the map");
 const layer = (label: string) => screen.page.getByLabel(label, { exact: true });
 
-async function bounds(): Promise<{ x: number; y: number; width: number; height: number }> {
+async function bounds(): Promise<{
+  x: number;
+  y: number;
+  width: number;
+  height: number;
+}> {
   const box = await screen.page.locator(".free").boundingBox();
   if (box === null) throw new Error("no map");
   return box;
 }
 
 test("a threat is amber, then red, with lines to the closest point of approach", async () => {
-  explain();
+  explain(station);
   // The page first: it must not miss the beginning.
   station.start("fleet-simulator", "formation-controller", "collision-monitor");
   await until(async () => expect(await screen.row(2).count()).toBe(1), 30_000);
@@ -87,11 +52,13 @@ test("a threat is amber, then red, with lines to the closest point of approach",
   expect((await screen.uav(1)).level).toBe("Clear");
   await until(async () => expect((await screen.uav(2)).level).toBe("Warning"), 30_000);
   await until(async () => expect(await pixels("fleet", "warning")).toBeGreaterThan(400));
-  await screen.page.screenshot({ path: `${import.meta.dirname}/test-results/map-warning.png` });
+  await screen.page.screenshot({
+    path: `${import.meta.dirname}/test-results/map-warning.png`,
+  });
 });
 
 test("trails are of all, of the selected or of nobody", async () => {
-  explain();
+  explain(station);
   await menu().click();
   for (const label of ["Grid", "Paths and waypoints"]) await layer(label).uncheck();
   const choose = (name: string) => screen.page.getByRole("radio", { name, exact: true }).check();
@@ -111,7 +78,7 @@ test("trails are of all, of the selected or of nobody", async () => {
 });
 
 test("a box over the map selects who is in it, Escape nobody", async () => {
-  explain();
+  explain(station);
   await screen.page.keyboard.press("Escape");
   await screen.page.keyboard.press("f");
   const { x, y, width, height } = await bounds();
@@ -126,8 +93,98 @@ test("a box over the map selects who is in it, Escape nobody", async () => {
   await until(async () => expect(await screen.text("main")).not.toContain("3 selected"));
 });
 
+/** Where a UAV is on the screen; there must be one. */
+async function uavAt(id: number): Promise<Centre> {
+  let at: Centre | null = null;
+  await until(async () => expect((at = await screen.symbol(id))).not.toBeNull());
+  return at ?? { x: 0, y: 0 };
+}
+
+const apart = (a: Centre, b: Centre) => Math.hypot(a.x - b.x, a.y - b.y);
+
+test("Enter in the table brings a UAV into the middle of what no panel covers", async () => {
+  explain(station);
+  await screen.page.keyboard.press("f");
+  await screen.page.keyboard.press("t");
+  const grid = screen.page.getByRole("grid");
+  await until(async () =>
+    expect(await grid.evaluate((table) => table === document.activeElement)).toBe(true),
+  );
+  await screen.page.keyboard.press("End");
+  await screen.page.keyboard.press("Enter");
+  const { x, y, width, height } = await bounds();
+  const map = await screen.page.locator("canvas.fleet").boundingBox();
+  const middle = {
+    x: x + width / 2 - (map?.x ?? 0),
+    y: y + height / 2 - (map?.y ?? 0),
+  };
+  await until(async () => {
+    const active = await grid.getAttribute("aria-activedescendant");
+    const at = await uavAt(Number(active?.replace(/\D/g, "")));
+    // It flies on meanwhile.
+    expect(apart(at, middle)).toBeLessThan(60);
+  });
+  await screen.page.locator(".map").focus();
+});
+
+test("one finger pans the map, two zoom it", async () => {
+  explain(station);
+  await screen.page.keyboard.press("Escape");
+  // From further away, where they hardly move while a finger does.
+  const close = apart(await uavAt(1), await uavAt(2));
+  for (let i = 0; i < 4; i += 1) await screen.page.keyboard.press("-");
+  await until(async () => expect(apart(await uavAt(1), await uavAt(2))).toBeLessThan(0.4 * close));
+  const free = await bounds();
+  const from = { x: free.x + free.width * 0.4, y: free.y + free.height * 0.3 };
+  const path = (dx: number, dy: number) =>
+    [0, 0.25, 0.5, 0.75, 1].map((part) => ({
+      x: from.x + part * dx,
+      y: from.y + part * dy,
+    }));
+
+  // A finger that rests before it is lifted doesn't throw the map.
+  const kRest_ms = 150;
+  const before = await uavAt(1);
+  await screen.touch(
+    path(-60, 40).map((finger) => [finger]),
+    kRest_ms,
+  );
+  await until(async () => {
+    const at = await uavAt(1);
+    expect(Math.abs(at.x - before.x + 60)).toBeLessThan(20);
+    expect(Math.abs(at.y - before.y - 40)).toBeLessThan(20);
+  });
+
+  const near = apart(await uavAt(1), await uavAt(2));
+  const [left, right] = [path(-60, 0), path(60, 0)];
+  await screen.touch(left.map((finger, i) => [{ x: finger.x - 40, y: finger.y }, right[i] ?? finger]));
+  await until(async () => expect(apart(await uavAt(1), await uavAt(2))).toBeGreaterThan(1.3 * near));
+});
+
+test("the other mouse button, or a long press, adds to the selection and takes out", async () => {
+  explain(station);
+  await screen.page.keyboard.press("f");
+  const map = await screen.page.locator("canvas.fleet").boundingBox();
+  const press = async (id: number, button: "left" | "right") => {
+    const { x, y } = await uavAt(id);
+    await screen.page.mouse.click(x + (map?.x ?? 0), y + (map?.y ?? 0), { button });
+  };
+  const selected = (text: string) =>
+    until(async () => expect(await screen.text(".selected-count")).toBe(text));
+  await until(async () => {
+    await press(1, "left");
+    expect(await screen.text(".selected-count")).toBe("1 selected");
+  });
+  await press(2, "right");
+  await selected("2 selected");
+  await press(1, "right");
+  await selected("1 selected");
+  await screen.page.keyboard.press("Escape");
+  await selected("None selected");
+});
+
 test("measuring tells length and bearing of each leg, by mouse and by keyboard", async () => {
-  explain();
+  explain(station);
   const { x, y, width, height } = await bounds();
   await screen.page.keyboard.press("m");
   await screen.page.mouse.click(x + 60, y + height - 120);
@@ -148,7 +205,7 @@ test("measuring tells length and bearing of each leg, by mouse and by keyboard",
 });
 
 test("the readout tells where the cursor is in WGS-84, ENU and MGRS", async () => {
-  explain();
+  explain(station);
   const { x, y, width, height } = await bounds();
   await screen.page.mouse.move(x + width / 2, y + height / 2);
   await until(async () => {
@@ -160,51 +217,18 @@ test("the readout tells where the cursor is in WGS-84, ENU and MGRS", async () =
   });
 });
 
-test("a folder of tiles lies under the fleet, and can be put away", async () => {
-  explain();
-  const tiles = screen.page.locator("img.leaflet-tile-loaded");
-  await until(async () => expect(await tiles.count()).toBeGreaterThan(0));
-  await menu().click();
-  expect(await layer("county").isChecked()).toBe(true);
-  for (const theme of ["dark", "light"] as const) {
-    await screen.page.emulateMedia({ colorScheme: theme });
-    expect(await screen.barriers()).toEqual([]);
-    await screen.page.screenshot({ path: `${import.meta.dirname}/test-results/map-layers-${theme}.png` });
-  }
-  await screen.page.emulateMedia({ colorScheme: "dark" });
-  await layer("Offline outlines").check();
-  await until(async () => expect(await tiles.count()).toBe(0));
-  await layer("county").check();
-  await screen.page.keyboard.press("Escape");
-});
-
 test("who is lost becomes a ghost", async () => {
-  explain();
+  explain(station);
   const solid = await pixels("fleet", "identity-1");
   await screen.button("Cut the link of UAV1").click();
   await until(async () => expect((await screen.uav(1)).downlink).toBe("lost"), 20_000);
   await until(async () => expect(await pixels("fleet", "identity-1")).toBeLessThan(solid / 2));
-  await screen.page.screenshot({ path: `${import.meta.dirname}/test-results/map-ghost.png` });
+  await screen.page.screenshot({
+    path: `${import.meta.dirname}/test-results/map-ghost.png`,
+  });
 });
 
-test("a PMTiles file is read in parts and drawn", async () => {
-  explain();
-  await station.stop("web-bridge");
-  with_archive.start("web-bridge");
-  await with_archive.answers();
-  const colour = () =>
-    screen.page.evaluate(() => {
-      const tile = document.querySelector<HTMLCanvasElement>("canvas.leaflet-tile-loaded");
-      const data = tile?.getContext("2d")?.getImageData(0, 0, 1, 1).data;
-      return data === undefined ? null : [...data.slice(0, 3)];
-    });
-  await until(async () => expect(await colour()).toEqual([...kArchiveColour]), 30_000);
-  expect(await screen.text(".leaflet-control-attribution")).toContain("Test survey");
-});
-
-test("no request left this machine, and nothing was complained of but the bridge's short absence", () => {
-  expect(
-    screen.complaints.filter((text) => !/WebSocket connection|ERR_CONNECTION_REFUSED/.test(text)),
-  ).toEqual([]);
+test("no request left this machine, and nothing was complained of", () => {
+  expect(screen.complaints).toEqual([]);
   expect(screen.strangers).toEqual([]);
 });

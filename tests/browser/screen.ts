@@ -4,6 +4,7 @@ import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import axe from "axe-core";
 import { chromium, type BrowserContext, type Locator, type Page } from "playwright-core";
+import { vi } from "vitest";
 import { kPageUrl } from "./station";
 
 const kResults = fileURLToPath(new URL("test-results/", import.meta.url));
@@ -16,6 +17,10 @@ const kFlags = [
   "--disable-sync",
   "--no-first-run",
 ];
+
+/** Waits for what a person would wait for; fails with what was still wrong. */
+export const until = (what: () => Promise<void> | void, timeout = 15_000): Promise<void> =>
+  vi.waitFor(what, { timeout, interval: 50 });
 
 export interface Uav {
   level: string;
@@ -151,6 +156,49 @@ export class Screen {
       },
       [id, canvas] as const,
     );
+  }
+
+  /**
+   * How many pixels of a canvas have a colour of the stylesheet ("identity-1"), in each tenth of its width; all that are drawn at
+   * all when none is named.
+   */
+  ink(canvas: string, token = "", tolerance = 0): Promise<number[]> {
+    return this.page.locator(canvas).evaluate(
+      (drawn: HTMLCanvasElement, [wanted, most_off]) => {
+        const copy = new OffscreenCanvas(drawn.width, drawn.height);
+        const context = copy.getContext("2d", { willReadFrequently: true });
+        if (context === null) return [];
+        context.drawImage(drawn, 0, 0);
+        const hex = getComputedStyle(document.documentElement).getPropertyValue(`--${wanted}`).trim();
+        const rgb = [1, 3, 5].map((i) => parseInt(hex.slice(i, i + 2), 16));
+        const { data } = context.getImageData(0, 0, copy.width, copy.height);
+        const tenths = new Array<number>(10).fill(0);
+        for (let i = 0; i < data.length; i += 4) {
+          if (data[i + 3] === 0) continue;
+          if (wanted !== "" && rgb.some((value, c) => Math.abs((data[i + c] ?? 0) - value) > most_off))
+            continue;
+          const tenth = Math.floor((((i / 4) % copy.width) / copy.width) * 10);
+          tenths[tenth] = (tenths[tenth] ?? 0) + 1;
+        }
+        return tenths;
+      },
+      [token, tolerance] as const,
+    );
+  }
+
+  /** Puts fingers on the screen, moves them from place to place (each step: where each finger is), and lifts them. */
+  async touch(steps: readonly (readonly Centre[])[], hold_ms = 0): Promise<void> {
+    const inspector = await this.context.newCDPSession(this.page);
+    const send = (type: "touchStart" | "touchMove" | "touchEnd", fingers: readonly Centre[]) =>
+      inspector.send("Input.dispatchTouchEvent", {
+        type,
+        touchPoints: fingers.map(({ x, y }, id) => ({ x, y, id })),
+      });
+    for (const [i, fingers] of steps.entries()) await send(i === 0 ? "touchStart" : "touchMove", fingers);
+    // A press is long by how long it lasts: there is nothing else to wait for.
+    if (hold_ms > 0) await this.page.waitForTimeout(hold_ms);
+    await send("touchEnd", []);
+    await inspector.detach();
   }
 
   /** What axe finds wrong with the page for people who can't see, or not well. */

@@ -2,6 +2,7 @@
 import { spawn, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
 import { fileURLToPath } from "node:url";
+import { onTestFailed } from "vitest";
 
 const kHere = fileURLToPath(new URL(".", import.meta.url));
 const kBin = process.env["SKEIN_BIN"] ?? `${kHere}../../build/bin`;
@@ -28,6 +29,13 @@ export interface StationOptions {
   scenario: string;
   /** More arguments for web-bridge. */
   bridge?: readonly string[];
+}
+
+/** In a test: should it fail, what the processes said last is shown. */
+export function explain(...stations: readonly Station[]): void {
+  onTestFailed(() => {
+    process.stderr.write(stations.map((station) => `${station.log()}\n`).join(""));
+  });
 }
 
 export class Station {

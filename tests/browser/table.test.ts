@@ -1,12 +1,11 @@
 /** The table and payloads: sorted, filtered, selected by id and by keyboard; what is on and off is what telemetry says. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
-import { Station } from "./station";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Screen, until } from "./screen";
+import { explain, Station } from "./station";
 
 const station = new Station({ scenario: "table.json" });
 let screen: Screen;
 
-const until = (what: () => Promise<void>, timeout = 15_000) => vi.waitFor(what, { timeout, interval: 50 });
 const grid = () => screen.page.getByRole("grid", { name: "Formation information" });
 
 /** Ids from top to bottom, as they are seen. */
@@ -25,12 +24,6 @@ const selected = () =>
 /** Nobody is at the table: rows may move. */
 const leave = () => screen.page.mouse.move(640, 200);
 
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
-
 beforeAll(async () => {
   station.start();
   await station.answers();
@@ -48,7 +41,7 @@ afterAll(async () => {
 });
 
 test("a row a UAV, with units in the heads", async () => {
-  explain();
+  explain(station);
   await until(async () => {
     expect(await grid().getAttribute("aria-rowcount")).toBe("13");
     expect((await screen.uav(1)).downlink).toBe("up");
@@ -60,7 +53,7 @@ test("a row a UAV, with units in the heads", async () => {
 });
 
 test("the worst comes first: who loses the link goes to the top, but not while somebody is at the table", async () => {
-  explain();
+  explain(station);
   await leave();
   await screen.button("Cut the link of UAV7").click();
   // The pointer is in the table now.
@@ -76,8 +69,11 @@ test("the worst comes first: who loses the link goes to the top, but not while s
 });
 
 test("heads sort both ways and back, and columns can be hidden", async () => {
-  explain();
-  const id_head = grid().getByRole("columnheader", { name: "Sort by UAV", exact: true });
+  explain(station);
+  const id_head = grid().getByRole("columnheader", {
+    name: "Sort by UAV",
+    exact: true,
+  });
   await id_head.getByRole("button").click();
   await until(async () => expect(await shown()).toEqual([1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]));
   expect(await id_head.getAttribute("aria-sort")).toBe("ascending");
@@ -94,7 +90,7 @@ test("heads sort both ways and back, and columns can be hidden", async () => {
 });
 
 test("a filter shows who is lost, a formation, or what is typed", async () => {
-  explain();
+  explain(station);
   const show = screen.page.getByRole("combobox", { name: "Show" });
   await show.selectOption("Link lost");
   await until(async () => expect(await shown()).toEqual([7]));
@@ -110,7 +106,7 @@ test("a filter shows who is lost, a formation, or what is typed", async () => {
 });
 
 test("typed ids select; the map and the charts follow, and nonsense is answered with a sentence", async () => {
-  explain();
+  explain(station);
   const range = screen.page.getByRole("textbox", { name: /Select ids/ });
   await range.fill("1-3, 9");
   await range.press("Enter");
@@ -133,7 +129,7 @@ test("typed ids select; the map and the charts follow, and nonsense is answered 
 });
 
 test("a click selects one, Ctrl adds, Shift takes all between", async () => {
-  explain();
+  explain(station);
   const name = (id: number) => screen.row(id).locator(".uav-name");
   await screen.page.getByRole("combobox", { name: "Order" }).selectOption("By id");
   await until(async () => expect((await shown())[0]).toBe(1));
@@ -148,7 +144,7 @@ test("a click selects one, Ctrl adds, Shift takes all between", async () => {
 });
 
 test("with the keyboard: arrows move, Space selects, Ctrl+A takes all, Escape none, Enter centres the map", async () => {
-  explain();
+  explain(station);
   await screen.page.evaluate(() => {
     (document.activeElement as HTMLElement | null)?.blur();
   });
@@ -177,7 +173,7 @@ test("with the keyboard: arrows move, Space selects, Ctrl+A takes all, Escape no
 });
 
 test("payloads of a selection follow, and who is lost is named", async () => {
-  explain();
+  explain(station);
   const range = screen.page.getByRole("textbox", { name: /Select ids/ });
   await range.fill("5-7, 12");
   await range.press("Enter");
@@ -198,7 +194,7 @@ test("payloads of a selection follow, and who is lost is named", async () => {
 });
 
 test("the payload panel counts by telemetry, for the selected, all or a formation", async () => {
-  explain();
+  explain(station);
   await screen.button("Payload").click();
   const panel = screen.page.locator(".payload-panel");
   await panel.getByRole("radio", { name: "Bravo" }).check();
