@@ -73,7 +73,8 @@ export function AlarmBadges({ station }: PanelProps) {
                 class={`badge severity-${severity}${unacknowledged > 0 ? " flashes" : ""}${on + unacknowledged > 0 ? "" : " none"}`}
               >
                 <Lamp level={severity} />
-                {on}
+                {/* A flashing 0 would puzzle: what has ended, but nobody has seen, counts until somebody has. */}
+                {on > 0 ? on : unacknowledged}
                 {unacknowledged > 0 && <span class="visually-hidden">, {unacknowledged} unacknowledged</span>}
               </span>
             ))}

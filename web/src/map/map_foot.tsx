@@ -93,7 +93,7 @@ function Coordinates({ map }: { map: FleetMap }) {
   const { of, at } = told.value;
   const place = { latitude_deg: at.lat, longitude_deg: at.lng };
   return (
-    <dl class="coordinates" aria-label={`${of} of the map`}>
+    <dl class={`coordinates of-${of.toLowerCase()}`} aria-label={`${of} of the map`}>
       <dt>{of}</dt>
       <dd title="WGS-84">{latLonText(place)}</dd>
       <dt>ENU</dt>
