@@ -220,7 +220,8 @@ test("when the bridge goes the page says so, greys out, and comes back by itself
 
 test("a command that nobody obeys is refused beside its button", async () => {
   explain();
-  // The bridge has been started anew: it has to hear of the simulator first.
+  // The bridge has been started anew: until it has heard the simulator the page takes the links' buttons away.
+  await station.hears("fleet-simulator");
   await screen.button("Cut the link of UAV1").waitFor();
   await station.stop("fleet-simulator");
   await screen.button("Cut the link of UAV1").click();

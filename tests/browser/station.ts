@@ -89,6 +89,20 @@ export class Station {
     return this.stop(...this.running.keys());
   }
 
+  /** Waits until the bridge that runs now has heard a node. */
+  async hears(node: NodeName, timeout_ms = 20_000): Promise<void> {
+    const deadline = Date.now() + timeout_ms;
+    for (;;) {
+      const state = (await fetch(`${kPageUrl}api/state`).then(
+        (response) => response.json(),
+        () => ({ heartbeats: [] }),
+      )) as { heartbeats: { heartbeat_node: string }[] };
+      if (state.heartbeats.some(({ heartbeat_node }) => heartbeat_node === node)) return;
+      if (Date.now() > deadline) throw new Error(`web-bridge doesn't hear ${node}\n${this.log()}`);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+  }
+
   /** What the processes said last. */
   log(): string {
     return [...this.running].map(([name, { output }]) => `--- ${name}\n${output}`).join("\n");
