@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bridge/path_line.h"
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
 #include "config/scenario.h"
 #include "controller/fleet_picture.h"
+#include "core/path_line.h"
 
 namespace skein::bridge {
 namespace {

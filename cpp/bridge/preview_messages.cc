@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "bridge/path_line.h"
+#include "core/path_line.h"
 
 namespace skein::bridge {
 namespace {
@@ -38,8 +38,8 @@ Json Limit(const experiment::BindingLimit& limit) {
           {"seconds", Seconds(limit.seconds)}};
 }
 
-Json TrackPoints(const experiment::Track& track) {
-  return {{"id", track.vehicle_id}, {"points", Each(track.points, [](const experiment::TrackPoint& point) {
+Json TrackPoints(const Track& track) {
+  return {{"id", track.vehicle_id}, {"points", Each(track.points, [](const TrackPoint& point) {
                                        return Json{Seconds(point.t_s), Metres(point.position.x()),
                                                    Metres(point.position.y()), Metres(point.position.z())};
                                      })}};

@@ -15,6 +15,7 @@
 #include "cli/geojson.h"
 #include "cli/status.h"
 #include "cli/vehicles.h"
+#include "core/path_line.h"
 
 namespace skein::cli {
 namespace {
@@ -108,19 +109,6 @@ void CommandFormation(Station& station, std::int8_t action, int id, const char* 
        station.Ask(channel::kCmdFormation, command, kController));
 }
 
-/// The path as it is flown, from its start once through.
-std::vector<Eigen::Vector3d> Line(const Path& path) {
-  constexpr double kStepM = 50;
-  std::vector<Eigen::Vector3d> line;
-  const double length_m = path.end_arc_m() - path.start_arc_m();
-  const int steps = std::max(1, static_cast<int>(std::ceil(length_m / kStepM)));
-  for (int i = 0; i <= steps; ++i) {
-    const PathPoint point = path.At(path.start_arc_m() + length_m * i / steps);
-    line.emplace_back(point.position.x(), point.position.y(), point.up_m);
-  }
-  return line;
-}
-
 // Home and clear to the end: no flicker.
 constexpr const char* kClearScreen = "\x1b[H\x1b[J";
 
@@ -194,7 +182,8 @@ void ShowPath(Station& station, int id, std::ostream& out) {
   const config::Origin origin = OriginOf(station.Roster());
   const path_t& message = Choose(station, station.picture().paths, id, "path")->second;
   const PathFile path{message.loop_start_m != -1, bus::ToWaypoints(message)};
-  out << WritePath(path, Line(bus::ToPath(message)), origin) << '\n';
+  const Path flown = bus::ToPath(message);
+  out << WritePath(path, SampleLine(flown, flown.start_arc_m(), flown.end_arc_m()), origin) << '\n';
 }
 
 void UploadPath(Station& station, const PathOptions& options, std::ostream& out) {

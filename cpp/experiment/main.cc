@@ -17,8 +17,8 @@
 #include "bus/node_main.h"
 #include "experiment/csv_writer.h"
 #include "experiment/experiment.h"
-#include "experiment/flight_record.h"
-#include "experiment/plot.h"
+#include "experiment/flight_recorder.h"
+#include "plot/plot.h"
 
 namespace skein::experiment {
 namespace {
@@ -110,7 +110,7 @@ class Progress {
 };
 
 /// Flies one run, writes its files, prints its summary.
-FlightRecord Fly(const Run& run, const Arguments& arguments) {
+plot::FlightRecord Fly(const Run& run, const Arguments& arguments) {
   std::optional<CsvWriter> csv;
   if (!arguments.csv.empty()) csv.emplace(FileOf(run, arguments.csv));
   FlightRecorder recorder(run.scenario, run.label);
@@ -137,9 +137,10 @@ FlightRecord Fly(const Run& run, const Arguments& arguments) {
   return recorder.record();
 }
 
-void WritePlot(const fs::path& file, const std::string& title, const std::vector<FlightRecord>& records) {
+void WritePlot(const fs::path& file, const std::string& title,
+               const std::vector<plot::FlightRecord>& records) {
   std::ofstream stream(file, std::ios::binary);
-  stream << PlotSvg(title, records);
+  stream << plot::PlotSvg(title, records);
   stream.flush();
   if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
 }
@@ -196,7 +197,7 @@ int Main(int argc, char** argv) {
   }
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
   try {
-    std::vector<FlightRecord> records;
+    std::vector<plot::FlightRecord> records;
     for (const Run& run : runs) {
       records.push_back(Fly(run, arguments));
       if (interrupted != 0) break;

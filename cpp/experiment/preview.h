@@ -12,8 +12,8 @@
 #include "controller/state_file.h"
 #include "core/path.h"
 #include "core/proximity.h"
+#include "core/track.h"
 #include "experiment/preview_watch.h"
-#include "experiment/track.h"
 
 namespace skein::experiment {
 

@@ -1,11 +1,11 @@
-#include "bridge/path_line.h"
+#include "core/path_line.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-namespace skein::bridge {
+namespace skein {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -81,4 +81,4 @@ TEST(StretchToDraw, GoesOnceRoundALoop) {
 }
 
 }  // namespace
-}  // namespace skein::bridge
+}  // namespace skein

@@ -1,13 +1,13 @@
-#include "experiment/plot.h"
+#include "plot/plot.h"
 
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
 #include <array>
 
-#include "experiment/chart.h"
+#include "plot/chart.h"
 
-namespace skein::experiment {
+namespace skein::plot {
 namespace {
 
 constexpr double kWidth = 1080;
@@ -95,11 +95,19 @@ Chart ChartOf(const std::vector<FlightRecord>& runs, const Style& style, Column 
   return chart;
 }
 
-Chart OverTime(const std::vector<FlightRecord>& runs, const Style& style, Column x, Column y,
-               const std::string& title, const std::string& label) {
+/// Columns over time, drawn with the same labels and link events.
+struct OverTime {
+  const std::vector<FlightRecord>& runs;
+  const Style& style;
+  const PlotOptions& options;
+
+  Chart operator()(Column x, Column y, const std::string& title, const std::string& label) const;
+};
+
+Chart OverTime::operator()(Column x, Column y, const std::string& title, const std::string& label) const {
   Chart chart = ChartOf(runs, style, x, y);
   chart.title = title;
-  chart.x_label = "Time [s]";
+  chart.x_label = options.time_label;
   chart.y_label = label;
   chart.vertical_stroke = kLinkEventStroke;
   for (const FlightRecord& run : runs) {
@@ -112,9 +120,28 @@ Chart OverTime(const std::vector<FlightRecord>& runs, const Style& style, Column
   return chart;
 }
 
+std::vector<Chart> ChartsOf(const std::vector<FlightRecord>& runs, const Style& style,
+                            const PlotOptions& options) {
+  using V = VehicleRecord;
+  const OverTime chart{runs, style, options};
+  const Chart forward = chart(&V::slot_t_s, &V::forward_error_m, "Forward error", "Error [m]");
+  const Chart left = chart(&V::slot_t_s, &V::left_error_m, "Left error", "Error [m]");
+  const Chart up = chart(&V::slot_t_s, &V::up_error_m, "Up error", "Error [m]");
+  const Chart speed = chart(&V::t_s, &V::speed_m_s, "Speed", "Speed [m/s]");
+  if (options.figure == Figure::kAssembly) return {forward, left, up, speed};
+  const Chart altitude = chart(&V::t_s, &V::up_m, "Altitude", "Altitude [m]");
+  Chart track = ChartOf(runs, style, &V::east_m, &V::north_m);
+  track.title = "Track";
+  track.x_label = "East [m]";
+  track.y_label = "North [m]";
+  track.equal_scales = true;
+  return {forward, speed, left, altitude, up, track};
+}
+
 }  // namespace
 
-std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& runs) {
+std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& runs,
+                    const PlotOptions& options) {
   const Style style(runs);
   auto legend = style.Legend();
   if (std::any_of(runs.begin(), runs.end(), [](const auto& run) { return !run.link_changes_s.empty(); })) {
@@ -128,21 +155,8 @@ std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& r
   const std::size_t legend_lines = (legend.size() + per_line - 1) / per_line;
   const double top = kTitleHeight + kLegendLine * static_cast<double>(legend_lines) + 8;
 
-  std::vector<Chart> charts{
-      OverTime(runs, style, &VehicleRecord::slot_t_s, &VehicleRecord::forward_error_m, "Forward error",
-               "Error [m]"),
-      OverTime(runs, style, &VehicleRecord::t_s, &VehicleRecord::speed_m_s, "Speed", "Speed [m/s]"),
-      OverTime(runs, style, &VehicleRecord::slot_t_s, &VehicleRecord::left_error_m, "Left error",
-               "Error [m]"),
-      OverTime(runs, style, &VehicleRecord::t_s, &VehicleRecord::up_m, "Altitude", "Altitude [m]"),
-      OverTime(runs, style, &VehicleRecord::slot_t_s, &VehicleRecord::up_error_m, "Up error", "Error [m]"),
-      ChartOf(runs, style, &VehicleRecord::east_m, &VehicleRecord::north_m)};
-  charts.back().title = "Track";
-  charts.back().x_label = "East [m]";
-  charts.back().y_label = "North [m]";
-  charts.back().equal_scales = true;
-
-  const double height = top + 3 * kChartHeight + kMargin;
+  const std::vector<Chart> charts = ChartsOf(runs, style, options);
+  const double height = top + static_cast<double>(charts.size() / 2) * kChartHeight + kMargin;
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} "
       "{1:g}\" "
@@ -168,4 +182,4 @@ std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& r
   return svg + "</svg>\n";
 }
 
-}  // namespace skein::experiment
+}  // namespace skein::plot

@@ -1,4 +1,4 @@
-#include "experiment/flight_record.h"
+#include "experiment/flight_recorder.h"
 
 #include <utility>
 
@@ -26,7 +26,7 @@ void FlightRecorder::Add(const Tick& tick) {
     if (cut != cut_[i]) record_.link_changes_s.push_back(tick.t_s);
     cut_[i] = cut;
     if (tick.number % kTicksPerSample != 0) continue;
-    VehicleRecord& record = record_.vehicles[i];
+    plot::VehicleRecord& record = record_.vehicles[i];
     record.t_s.push_back(tick.t_s);
     record.east_m.push_back(vehicle.truth.east_m);
     record.north_m.push_back(vehicle.truth.north_m);

@@ -5,7 +5,7 @@
 
 #include "core/path.h"
 
-namespace skein::bridge {
+namespace skein {
 
 /// Points (east, north, up) along the path from one arc length to another, the chords between them at most
 /// `chord_error_m` off the path.
@@ -23,4 +23,4 @@ struct DrawnStretch {
 /// round; 20 km of a path that ends in a straight line.
 DrawnStretch StretchToDraw(const Path& path, double leader_arc_m, bool straight_on);
 
-}  // namespace skein::bridge
+}  // namespace skein

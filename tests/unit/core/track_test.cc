@@ -1,10 +1,10 @@
-#include "experiment/track.h"
+#include "core/track.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace skein::experiment {
+namespace skein {
 namespace {
 
 /// Where a UAV that flies evenly between the points is.
@@ -59,4 +59,4 @@ TEST(Thinned, MakesTracksCoarserUntilTheyFit) {
 }
 
 }  // namespace
-}  // namespace skein::experiment
+}  // namespace skein

@@ -3,10 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "config/scenario.h"
-#include "experiment/tick.h"
-
-namespace skein::experiment {
+namespace skein::plot {
 
 /// Samples of one UAV, as the plot draws them.
 struct VehicleRecord {
@@ -23,22 +20,11 @@ struct VehicleRecord {
   std::vector<double> up_error_m;
 };
 
-/// A flight, sampled five times a second.
+/// A flight, sampled a few times a second.
 struct FlightRecord {
   std::string label;  ///< what tells this run from others
   std::vector<VehicleRecord> vehicles;
   std::vector<double> link_changes_s;  ///< when a data link was cut or restored
 };
 
-class FlightRecorder {
- public:
-  FlightRecorder(const config::Scenario& scenario, std::string label);
-  void Add(const Tick& tick);
-  const FlightRecord& record() const { return record_; }
-
- private:
-  FlightRecord record_;
-  std::vector<bool> cut_;  ///< as record_.vehicles
-};
-
-}  // namespace skein::experiment
+}  // namespace skein::plot

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace skein::experiment {
+namespace skein::plot {
 
 /// How a curve is drawn.
 struct Stroke {
@@ -56,4 +56,4 @@ std::string Sample(double x, double y, double length, const Stroke& stroke);
 std::string Text(double x, double y, const std::string& text, const std::string& anchor, double size = 12,
                  const std::string& more = "");
 
-}  // namespace skein::experiment
+}  // namespace skein::plot

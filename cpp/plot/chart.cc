@@ -1,4 +1,4 @@
-#include "experiment/chart.h"
+#include "plot/chart.h"
 
 #include <spdlog/fmt/fmt.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-namespace skein::experiment {
+namespace skein::plot {
 namespace {
 
 constexpr double kTickTextWidth = 62;
@@ -216,4 +216,4 @@ std::string Draw(const Chart& chart, const Box& box) {
   return svg + "</g>\n";
 }
 
-}  // namespace skein::experiment
+}  // namespace skein::plot

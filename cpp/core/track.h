@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace skein::experiment {
+namespace skein {
 
 /// Where a UAV is at a time.
 struct TrackPoint {
@@ -24,4 +24,4 @@ std::vector<TrackPoint> Thinned(const std::vector<TrackPoint>& points, double to
 /// All of them thinned to within 2 m, or as much more as it takes to have at most `most_points` in all.
 std::vector<Track> Thinned(std::vector<Track> tracks, std::size_t most_points);
 
-}  // namespace skein::experiment
+}  // namespace skein

@@ -1,10 +1,10 @@
-#include "bridge/path_line.h"
+#include "core/path_line.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace skein::bridge {
+namespace skein {
 namespace {
 
 constexpr double kBehindLeader_m = 3'000;
@@ -85,4 +85,4 @@ DrawnStretch StretchToDraw(const Path& path, double leader_arc_m, bool straight_
   return stretch;
 }
 
-}  // namespace skein::bridge
+}  // namespace skein

@@ -1,10 +1,10 @@
-#include "experiment/chart.h"
+#include "plot/chart.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-namespace skein::experiment {
+namespace skein::plot {
 namespace {
 
 TEST(TickValues, LieOneTwoOrFiveApart) {
@@ -61,4 +61,4 @@ TEST(Draw, HasNoCurveWithoutPoints) {
 }
 
 }  // namespace
-}  // namespace skein::experiment
+}  // namespace skein::plot

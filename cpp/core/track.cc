@@ -1,8 +1,8 @@
-#include "experiment/track.h"
+#include "core/track.h"
 
 #include <utility>
 
-namespace skein::experiment {
+namespace skein {
 
 std::vector<TrackPoint> Thinned(const std::vector<TrackPoint>& points, double tolerance_m) {
   if (points.size() < 3) return points;
@@ -51,4 +51,4 @@ std::vector<Track> Thinned(std::vector<Track> tracks, std::size_t most_points) {
   }
 }
 
-}  // namespace skein::experiment
+}  // namespace skein
