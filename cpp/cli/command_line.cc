@@ -1,5 +1,7 @@
 #include "cli/command_line.h"
 
+#include <utility>
+
 #include "bus/transport.h"
 
 namespace skein::cli {
@@ -34,6 +36,7 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   AddScenario();
   AddStatus();
   AddAlarms();
+  log_.Add(app_, [this](LogCommandLine::Command command) { offline_command_ = std::move(command); });
 }
 
 void CommandLine::AddLink() {

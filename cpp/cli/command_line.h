@@ -7,10 +7,12 @@
 
 #include "cli/alarms.h"
 #include "cli/commands.h"
+#include "cli/log/log_command_line.h"
 
 namespace skein::cli {
 
-/// The options of `skein`. After parse(), command() is what was asked for.
+/// The options of `skein`. After parse(), command() is what was asked for, or offline_command() when that
+/// needs no bus.
 class CommandLine {
  public:
   CommandLine();
@@ -20,6 +22,7 @@ class CommandLine {
 
   using Command = std::function<void(Station& station, std::ostream& out)>;
   const Command& command() const { return command_; }
+  const LogCommandLine::Command& offline_command() const { return offline_command_; }
 
  private:
   void AddLink();
@@ -33,6 +36,8 @@ class CommandLine {
   CLI::App app_;
   std::string lcm_url_;
   Command command_;
+  LogCommandLine::Command offline_command_;
+  LogCommandLine log_;
   LinkOptions link_;
   PathOptions path_;
   StatusOptions status_;

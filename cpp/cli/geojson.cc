@@ -1,47 +1,16 @@
 #include "cli/geojson.h"
 
-#include <GeographicLib/LocalCartesian.hpp>
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/geo_point.h"
+
 namespace skein::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-struct GeoPoint {
-  double longitude_deg;
-  double latitude_deg;
-  double altitude_m;
-};
-
-GeographicLib::LocalCartesian Frame(const config::Origin& origin) {
-  return {origin.latitude_deg, origin.longitude_deg, origin.altitude_m};
-}
-
-/// Altitude is along the up axis of the local frame (WGS-84 heights sink away from it: 8 m in 10 km), so the
-/// height that belongs to it is found step by step; the steps shrink a thousandfold each.
-Eigen::Vector3d ToLocal(const GeoPoint& point, const config::Origin& origin) {
-  const double up_m = point.altitude_m - origin.altitude_m;
-  double height_m = point.altitude_m;
-  Eigen::Vector3d local{0, 0, 0};
-  for (int i = 0; i < 4; ++i) {
-    Frame(origin).Forward(point.latitude_deg, point.longitude_deg, height_m, local.x(), local.y(), local.z());
-    height_m += up_m - local.z();
-  }
-  local.z() = up_m;
-  return local;
-}
-
-GeoPoint ToGeo(const Eigen::Vector3d& local, const config::Origin& origin) {
-  GeoPoint point{};
-  double height_m = 0;
-  Frame(origin).Reverse(local.x(), local.y(), local.z(), point.latitude_deg, point.longitude_deg, height_m);
-  point.altitude_m = origin.altitude_m + local.z();
-  return point;
-}
 
 /// Collects the waypoints of one file.
 class Reader {
@@ -172,14 +141,6 @@ class Reader {
   int points_ = 0;
 };
 
-/// Rounded to a hundredth of a millimetre or so, for people.
-Json Position(const Eigen::Vector3d& local, const config::Origin& origin) {
-  const auto rounded = [](double value, double steps) { return std::round(value * steps) / steps; };
-  const GeoPoint point = ToGeo(local, origin);
-  return {rounded(point.longitude_deg, 1e10), rounded(point.latitude_deg, 1e10),
-          rounded(point.altitude_m, 1e4)};
-}
-
 Json Feature(Json geometry, Json properties) {
   return {{"type", "Feature"}, {"geometry", std::move(geometry)}, {"properties", std::move(properties)}};
 }
@@ -205,13 +166,13 @@ std::string WritePath(const PathFile& path, const std::vector<Eigen::Vector3d>& 
   Json features = Json::array();
   if (!line.empty()) {
     Json coordinates = Json::array();
-    for (const auto& point : line) coordinates.push_back(Position(point, origin));
+    for (const auto& point : line) coordinates.push_back(GeoPosition(point, origin));
     features.push_back(Feature({{"type", "LineString"}, {"coordinates", coordinates}}, {{"flown", true}}));
   }
   for (const Waypoint& waypoint : path.waypoints) {
     features.push_back(
         Feature({{"type", "Point"},
-                 {"coordinates", Position({waypoint.east_m, waypoint.north_m, waypoint.up_m}, origin)}},
+                 {"coordinates", GeoPosition({waypoint.east_m, waypoint.north_m, waypoint.up_m}, origin)}},
                 {{"speed_m_s", waypoint.speed_m_s},
                  {"turn_radius_m", waypoint.turn_radius_m},
                  {"closed", path.closed}}));

@@ -4,6 +4,7 @@
 #include "bus/node_main.h"
 #include "bus/transport.h"
 #include "cli/command_line.h"
+#include "cli/log/log_source.h"
 #include "config/scenario.h"
 
 namespace {
@@ -39,9 +40,13 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return command_line.app().exit(error) == 0 ? bus::kExitGood : bus::kExitUsage;
   }
-  bus::BlockEndSignals();
   bus::StartLogging("skein", "warning");
   try {
+    if (command_line.offline_command()) {
+      cli::CatchInterrupts();
+      return command_line.offline_command()(std::cout);
+    }
+    bus::BlockEndSignals();
     Run(command_line);
     return bus::kExitGood;
   } catch (const config::ConfigError& error) {

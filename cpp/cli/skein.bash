@@ -20,7 +20,7 @@ _skein() {
     *)
       mapfile -t COMPREPLY < <(compgen -W "$(_skein_listed Subcommands "${words[@]}")" -- "$current")
       case "${words[*]:1}" in
-        'path upload' | 'formation apply') mapfile -t COMPREPLY < <(compgen -f -- "$current") ;;
+        'path upload' | 'formation apply' | 'log '?*) mapfile -t COMPREPLY < <(compgen -f -- "$current") ;;
       esac
       ;;
   esac

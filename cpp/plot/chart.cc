@@ -37,18 +37,6 @@ Interval Padded(Interval interval, double share, double least_length) {
   return {interval.least - share * interval.length(), interval.most + share * interval.length()};
 }
 
-std::string Escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '<'   ? "&lt;"
-              : c == '>' ? "&gt;"
-              : c == '&' ? "&amp;"
-              : c == '"' ? "&quot;"
-                         : std::string(1, c);
-  }
-  return result;
-}
-
 std::string TickText(double value, double step) {
   const int decimals = std::max(0, static_cast<int>(-std::floor(std::log10(step) + 1e-9)));
   return fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
@@ -110,6 +98,18 @@ void MakeScalesEqual(Interval& x, Interval& y, const Box& box) {
 
 }  // namespace
 
+std::string EscapedXml(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '<'   ? "&lt;"
+              : c == '>' ? "&gt;"
+              : c == '&' ? "&amp;"
+              : c == '"' ? "&quot;"
+                         : std::string(1, c);
+  }
+  return result;
+}
+
 std::vector<double> TickValues(double least, double most, int count) {
   const double rough = (most - least) / std::max(1, count);
   const double power = std::pow(10, std::floor(std::log10(rough)));
@@ -160,7 +160,7 @@ std::string Text(double x, double y, const std::string& text, const std::string&
                  const std::string& more) {
   return fmt::format(
       "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" font-size=\"{:g}\" fill=\"{}\"{}>{}</text>\n", x, y,
-      anchor, size, kInk, more.empty() ? "" : " " + more, Escaped(text));
+      anchor, size, kInk, more.empty() ? "" : " " + more, EscapedXml(text));
 }
 
 std::string Draw(const Chart& chart, const Box& box) {

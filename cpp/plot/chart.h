@@ -56,4 +56,7 @@ std::string Sample(double x, double y, double length, const Stroke& stroke);
 std::string Text(double x, double y, const std::string& text, const std::string& anchor, double size = 12,
                  const std::string& more = "");
 
+/// As text or attribute of an XML file.
+std::string EscapedXml(const std::string& text);
+
 }  // namespace skein::plot

@@ -1,0 +1,73 @@
+#include <spdlog/fmt/fmt.h>
+
+#include <array>
+#include <cstdio>
+#include <deque>
+#include <set>
+#include <string_view>
+
+#include "bus/channels.h"
+#include "cli/log/log.h"
+#include "cli/log/log_source.h"
+#include "cli/log/text.h"
+#include "config/scenario.h"
+#include "recording/log_output.h"
+
+namespace skein::cli {
+namespace {
+
+// What is repeated at 1 Hz has come within this.
+constexpr double kBefore_s = 1.5;
+
+/// Channels on which a state is repeated, rather than something that happens.
+bool IsState(std::string_view name) {
+  namespace channel = bus::channel;
+  static const std::set<std::string_view> channels = {
+      channel::kFleetRoster, channel::kFleetState,      channel::kFormation,
+      channel::kPath,        channel::kFormationStatus, channel::kProximity,
+      channel::kLinkStatus,  channel::kAlarms,          channel::kHeartbeat};
+  return channels.contains(name);
+}
+
+struct Kept {
+  double t_s;
+  std::string channel;
+  std::vector<std::byte> data;
+};
+
+}  // namespace
+
+void CutLog(const LogCutOptions& options, std::ostream& out) {
+  LogSource source(options.file);
+  Output output(options.output, out);
+  recording::LogOutput log(output.stream());
+  std::deque<Kept> before;
+  std::int64_t messages = 0;
+  double end_s = 0;
+  source.ForEach([&](const recording::LogEvent& event, double t_s) {
+    end_s = t_s;
+    if (options.window.IsPast(t_s)) return false;
+    if (t_s < options.window.from_s) {
+      while (!before.empty() && before.front().t_s < t_s - kBefore_s) before.pop_front();
+      if (t_s >= options.window.from_s - kBefore_s && IsState(event.channel)) {
+        before.push_back({t_s, std::string(event.channel), {event.data.begin(), event.data.end()}});
+      }
+      return true;
+    }
+    // All at once, at the time of the first message of the part: so the part begins where it was asked to.
+    if (messages++ == 0) {
+      for (const Kept& kept : before) log.Write(event.utime, kept.channel, kept.data);
+    }
+    log.Write(event.utime, event.channel, event.data);
+    return output.stream().good();
+  });
+  if (messages == 0) {
+    throw config::ConfigError(
+        fmt::format("{}: there is nothing from {:g} s on; the recording is {:.1f} s long", options.file,
+                    options.window.from_s, end_s));
+  }
+  output.Finish();
+  source.TellProblems();
+}
+
+}  // namespace skein::cli
