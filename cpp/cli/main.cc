@@ -1,4 +1,5 @@
 #include <iostream>
+#include <stdexcept>
 
 #include "bus/live_executor.h"
 #include "bus/node_main.h"
@@ -44,7 +45,9 @@ int main(int argc, char** argv) {
   try {
     if (command_line.offline_command()) {
       cli::CatchInterrupts();
-      return command_line.offline_command()(std::cout);
+      const int exit_code = command_line.offline_command()(std::cout);
+      if (!std::cout.flush()) throw std::runtime_error("standard output: could not be written wholly");
+      return exit_code;
     }
     bus::BlockEndSignals();
     Run(command_line);

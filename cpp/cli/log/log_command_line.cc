@@ -25,8 +25,11 @@ void CheckWindow(const LogWindow& window) {
   }
 }
 
-void AddOutput(CLI::App* command, OutputOptions& output) {
-  command->add_option("--out", output.file, "Write into this file (default: standard output)")
+void AddOutput(CLI::App* command, OutputOptions& output, bool is_required = false) {
+  command
+      ->add_option("--out", output.file,
+                   is_required ? "Write into this file" : "Write into this file (default: standard output)")
+      ->required(is_required)
       ->type_name("FILE");
   command->add_flag("--force", output.force, "Replace the file if it exists");
 }
@@ -57,6 +60,9 @@ void LogCommandLine::Add(CLI::App& app, Choose choose) {
   choose_ = std::move(choose);
   CLI::App* log = app.add_subcommand("log", "Recordings: what is in them, and exports");
   log->require_subcommand(1);
+  log->footer(
+      "Exit codes: 0 done, 1 not done (diff: the flights part), 2 wrong usage or a file that cannot be "
+      "used.");
   AddInfo(*log);
   AddEvents(*log);
   AddCsv(*log);
@@ -160,8 +166,7 @@ void LogCommandLine::AddCut(CLI::App& log) {
         CutLog(cut_, out);
       });
   AddWindow(command, cut_.window);
-  AddOutput(command, cut_.output);
-  command->get_option("--out")->required();
+  AddOutput(command, cut_.output, true);
   command->footer(
       "The state of the moment (roster, formations, paths, links, alarms: all that is repeated at 1 Hz) is\n"
       "put at the start of the part, so that a page that plays it shows all at once.");

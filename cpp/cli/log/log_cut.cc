@@ -1,10 +1,8 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <array>
-#include <cstdio>
 #include <deque>
-#include <set>
-#include <string_view>
+#include <string>
+#include <vector>
 
 #include "bus/channels.h"
 #include "cli/log/log.h"
@@ -12,6 +10,7 @@
 #include "cli/log/text.h"
 #include "config/scenario.h"
 #include "recording/log_output.h"
+#include "recording/message_types.h"
 
 namespace skein::cli {
 namespace {
@@ -19,14 +18,10 @@ namespace {
 // What is repeated at 1 Hz has come within this.
 constexpr double kBefore_s = 1.5;
 
-/// Channels on which a state is repeated, rather than something that happens.
-bool IsState(std::string_view name) {
-  namespace channel = bus::channel;
-  static const std::set<std::string_view> channels = {
-      channel::kFleetRoster, channel::kFleetState,      channel::kFormation,
-      channel::kPath,        channel::kFormationStatus, channel::kProximity,
-      channel::kLinkStatus,  channel::kAlarms,          channel::kHeartbeat};
-  return channels.contains(name);
+/// Whether it is a state of ours that is repeated, rather than something that happens once.
+bool IsState(const recording::LogEvent& event) {
+  if (event.channel == bus::channel::kEvent || event.channel == bus::channel::kAck) return false;
+  return !event.channel.starts_with("CMD_") && recording::TypeOf(event.data);
 }
 
 struct Kept {
@@ -49,7 +44,7 @@ void CutLog(const LogCutOptions& options, std::ostream& out) {
     if (options.window.IsPast(t_s)) return false;
     if (t_s < options.window.from_s) {
       while (!before.empty() && before.front().t_s < t_s - kBefore_s) before.pop_front();
-      if (t_s >= options.window.from_s - kBefore_s && IsState(event.channel)) {
+      if (t_s >= options.window.from_s - kBefore_s && IsState(event)) {
         before.push_back({t_s, std::string(event.channel), {event.data.begin(), event.data.end()}});
       }
       return true;

@@ -173,8 +173,11 @@ void Comparison::Run() {
   bool is_over[2] = {false, false};
   for (;;) {
     // The one that is behind reads on, so that little has to wait; once the other is over, up to its end.
-    const int flight = flights_[1].now_s() < flights_[0].now_s() ? 1 : 0;
-    if (is_over[flight]) break;
+    int flight = flights_[1].now_s() < flights_[0].now_s() ? 1 : 0;
+    if (is_over[0] || is_over[1]) {
+      flight = is_over[0] ? 1 : 0;
+      if (is_over[flight] || flights_[flight].now_s() > flights_[1 - flight].now_s()) break;
+    }
     is_over[flight] =
         !flights_[flight].ReadOn([&](int id, const Sample& sample) { Add(flight, id, sample); });
     progress.Show(flights_[0].share_read());

@@ -26,7 +26,8 @@ using Json = nlohmann::ordered_json;
 constexpr std::array<const char*, 4> kSeverities = {"info", "advisory", "caution", "warning"};
 constexpr std::size_t kMostChannels = 10'000;
 constexpr std::size_t kMostListed = 1'000;
-constexpr std::size_t kDamageShown = 10;
+constexpr std::size_t kMostShown = 20;
+constexpr const char* kMore = "  and more, which --json lists\n";
 
 struct Channel {
   std::string type;  ///< of Skein's, "" while none was seen
@@ -232,12 +233,16 @@ std::string Survey::ToText() const {
     text += fmt::format("{} {}{}", events_.at(i), kSeverities.at(i), i > 0 ? ", " : "\n");
   }
   text += fmt::format("alarms    {}\n", alarm_count_);
-  for (const Alarm& alarm : alarms_) {
-    text += fmt::format("  {:9.2f} s  {:<8}  {}\n", alarm.t_s,
-                        kSeverities.at(static_cast<std::size_t>(alarm.severity)), alarm.text);
+  for (std::size_t i = 0; i < std::min(alarms_.size(), kMostShown); ++i) {
+    text += fmt::format("  {:9.2f} s  {:<8}  {}\n", alarms_[i].t_s,
+                        kSeverities.at(static_cast<std::size_t>(alarms_[i].severity)), alarms_[i].text);
   }
+  if (alarms_.size() > kMostShown) text += kMore;
   if (!markers_.empty()) text += fmt::format("markers   {}\n", markers_.size());
-  for (const auto& [t_s, marker] : markers_) text += fmt::format("  {:9.2f} s  {}\n", t_s, marker);
+  for (std::size_t i = 0; i < std::min(markers_.size(), kMostShown); ++i) {
+    text += fmt::format("  {:9.2f} s  {}\n", markers_[i].first, markers_[i].second);
+  }
+  if (markers_.size() > kMostShown) text += kMore;
   for (const std::string& problem : recording.problems()) text += "problem   " + problem + '\n';
   const auto damage = source_.damage();
   if (damage.empty()) {
@@ -245,11 +250,11 @@ std::string Survey::ToText() const {
   } else {
     text += fmt::format("damage    {} could not be read\n", ByteText(source_.damaged_bytes()));
   }
-  for (std::size_t i = 0; i < std::min(damage.size(), kDamageShown); ++i) {
+  for (std::size_t i = 0; i < std::min(damage.size(), kMostShown); ++i) {
     text += fmt::format("  {}: {} from byte {} on: {}\n", damage[i].file.filename().string(),
                         ByteText(damage[i].damage.bytes), damage[i].damage.offset, damage[i].damage.reason);
   }
-  if (damage.size() > kDamageShown) text += "  and more; --json lists it\n";
+  if (damage.size() > kMostShown) text += kMore;
   return text + '\n' + ChannelTable(channels_);
 }
 
