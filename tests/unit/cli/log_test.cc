@@ -195,7 +195,9 @@ TEST_F(LogTest, CutsAPartThatBeginsWithTheWholeState) {
   for (const auto& channel : info["channels"]) {
     for (const char* state :
          {"FLEET_ROSTER", "FORMATION", "PATH", "FORMATION_STATUS", "PROXIMITY", "LINK_STATUS", "ALARMS"}) {
-      if (channel["name"] == state) EXPECT_EQ(channel["first_s"], 0) << channel;
+      if (channel["name"] == state) {
+        EXPECT_EQ(channel["first_s"], 0) << channel;
+      }
     }
   }
   // What happened is there once, and nothing from before.
