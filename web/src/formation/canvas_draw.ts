@@ -2,7 +2,7 @@
 import type { Colours } from "../map/colours";
 import { identityOf } from "../map/colours";
 import { at as turned, kAircraft, kLeader, kLevelFrames } from "../map/shapes";
-import { niceStep } from "../map/view";
+import { niceStep } from "../units/nice_step";
 import { toOffset, toPixel, type CanvasView, type Point } from "./canvas_view";
 import type { Draft } from "./draft";
 import type { Offset } from "./shapes";

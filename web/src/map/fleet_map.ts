@@ -2,7 +2,7 @@
 import L from "leaflet";
 import { effect, signal } from "@preact/signals";
 import type { Store } from "../state/store";
-import { theme } from "../state/settings";
+import { altitude_unit, distance_unit, speed_unit, theme } from "../state/settings";
 import { localFrame, type LocalFrame } from "../units/geodesy";
 import { Land } from "./base_map";
 import { BoxSelect } from "./box_select";
@@ -216,6 +216,7 @@ export class FleetMap implements MapAccess {
         // Whatever of these changes, all is to be drawn again.
         for (const { shown } of Object.values(layers)) void shown.value;
         void [trails_of.value, trail_min.value, this.store.selection.value];
+        void [altitude_unit.value, distance_unit.value, speed_unit.value];
         redraw();
       }),
     );

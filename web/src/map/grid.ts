@@ -1,18 +1,8 @@
 /** The lines over the map: meridians and parallels far out, the local grid in metres near by. */
-import { length } from "../units/format";
 import type { LocalFrame } from "../units/geodesy";
+import { lengthInSteps, roundLength_m } from "../units/quantities";
 import type { Colours } from "./colours";
-import {
-  latitudeOf,
-  mercatorX,
-  mercatorY,
-  niceStep,
-  pixelOf,
-  pixelsPerMetre,
-  xOf,
-  yOf,
-  type View,
-} from "./view";
+import { latitudeOf, mercatorX, mercatorY, pixelOf, pixelsPerMetre, xOf, yOf, type View } from "./view";
 
 /** Lines are at least this far apart [px]. */
 const kLeastGap_px = 84;
@@ -31,7 +21,7 @@ export function localGridStep_m(view: View, frame: LocalFrame | null): number | 
   if (view.width_px / per_metre > kWidestLocalView_m) return null;
   const middle = middleOf(view, frame, per_metre);
   if (Math.hypot(middle.east_m, middle.north_m) > kFarthestFromOrigin_m) return null;
-  return niceStep(kLeastGap_px / per_metre);
+  return roundLength_m(kLeastGap_px / per_metre);
 }
 
 export function drawGrid(
@@ -68,7 +58,7 @@ function drawLocalGrid(
   const east = rangeAround(middle.east_m, view.width_px / per_metre, step_m);
   const north = rangeAround(middle.north_m, view.height_px / per_metre, step_m);
   const label = (value_m: number, positive: string, negative: string) =>
-    `${length(Math.abs(value_m))} ${value_m < 0 ? negative : positive}`;
+    `${lengthInSteps(Math.abs(value_m), step_m)} ${value_m < 0 ? negative : positive}`;
 
   for (let e = east.from; e <= east.to; e += step_m) {
     const [a, b] = [pixelOf(view, frame, e, north.from, 0), pixelOf(view, frame, e, north.to, 0)];

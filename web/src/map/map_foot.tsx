@@ -2,10 +2,9 @@
 import { useSignal } from "@preact/signals";
 import type L from "leaflet";
 import { useEffect, useRef } from "preact/hooks";
-import { length } from "../units/format";
+import { lengthInSteps, roundLength_m } from "../units/quantities";
 import { enuText, latLonText, mgrsText } from "./coordinates";
 import type { FleetMap } from "./fleet_map";
-import { niceStep } from "./view";
 
 export function MapFoot({ map }: { map: FleetMap }) {
   const attribution = useRef<HTMLDivElement>(null);
@@ -110,19 +109,23 @@ function Scale({ map }: { map: FleetMap }) {
   const scale = map.scale.value;
   if (scale === null) return null;
   // The longest round length that fits: half of the next round one up, or two fifths after a 2.
+  const longest_m = kLongestBar_px * scale.metres_per_pixel;
+  const round_m = roundLength_m(longest_m);
   const bar_m = [1, 0.5, 0.4, 0.2]
-    .map((part) => niceStep(kLongestBar_px * scale.metres_per_pixel) * part)
-    .find((metres) => metres <= kLongestBar_px * scale.metres_per_pixel * 1.001);
+    .map((part) => round_m * part)
+    .find((metres) => metres <= longest_m * 1.001);
   if (bar_m === undefined) return null;
   return (
     <div class="scale">
       <span>
-        {scale.grid_m === null ? "Grid: latitude, longitude" : `Grid ${length(scale.grid_m)}, local ENU`}
+        {scale.grid_m === null
+          ? "Grid: latitude, longitude"
+          : `Grid ${lengthInSteps(scale.grid_m, scale.grid_m)}, local ENU`}
       </span>
       <svg width={kLongestBar_px} height="8" aria-hidden="true">
         <path d={`M1 1V7H${(bar_m / scale.metres_per_pixel - 1).toFixed(1)}V1`} />
       </svg>
-      <span>{length(bar_m)}</span>
+      <span>{lengthInSteps(bar_m, round_m)}</span>
     </div>
   );
 }

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { localFrame } from "../units/geodesy";
-import { latitudeOf, mercatorX, mercatorY, niceStep, pixelOf, pixelsPerMetre, type View } from "./view";
+import { latitudeOf, mercatorX, mercatorY, pixelOf, pixelsPerMetre, type View } from "./view";
 
 const kView: View = { scale_px: 256 * 2 ** 12, left_px: 0, top_px: 0, width_px: 1000, height_px: 600 };
 
@@ -24,12 +24,3 @@ test("a kilometre east and north has the length that the scale says", () => {
   expect((origin.y - north.y) / per_metre / 1000).toBeCloseTo(1, 2);
   expect(north.x).toBeCloseTo(origin.x, 3);
 });
-
-test.each([
-  [1, 1],
-  [1.1, 2],
-  [3, 5],
-  [500, 500],
-  [501, 1000],
-  [0.03, 0.05],
-])("the round step for %f is %f", (value, expected) => expect(niceStep(value)).toBeCloseTo(expected, 9));

@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { useLayoutEffect, useRef } from "preact/hooks";
-import { niceStep } from "../map/view";
+import { niceStep } from "../units/nice_step";
 import { altitude, distance, kAltitudeReference } from "../units/quantities";
 import type { PathDraft } from "./path_draft";
 import { kAltitudeRange_m } from "./path_plan";

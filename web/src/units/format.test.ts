@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import { clock, compass, duration, fixed, fixedOrNone, length, utc } from "./format";
+import { clock, compass, duration, fixed, fixedOrNone, utc } from "./format";
 
 describe("fixed", () => {
   test("has a true minus sign", () => expect(fixed(-12.34, 1)).toBe("\u221212.3"));
@@ -33,9 +33,4 @@ describe("times", () => {
     expect(duration(7500)).toBe("2 h 5 min");
     expect(duration(-1)).toBe("0 s");
   });
-});
-
-test("length turns to kilometres at 1000 m", () => {
-  expect(length(500)).toBe("500 m");
-  expect(length(2000)).toBe("2 km");
 });
