@@ -11,6 +11,10 @@ import type { Span } from "./time_window";
 const kFont = '11px "Inter Variable", system-ui, sans-serif';
 /** All charts with this key have their cursors in step. */
 const kSync = "skein.flight";
+const kDegreeSteps = [1, 2, 5, 10, 15, 30, 45, 90, 180];
+/** Half of the longest label of the time axis [px]. */
+const kHalfTimeLabel_px = 22;
+const kPaddingRight_px = 4;
 const kTimeSteps_s = [1, 2, 5, 10, 15, 30, 60, 120, 300, 600, 900, 1800, 3600, 7200, 14_400, 28_800, 86_400];
 /** A curve that is nearly flat is shown flat: this is the least height of a chart, in shown units. */
 const kLeastRange = 2;
@@ -42,7 +46,7 @@ export function makePlot(
     {
       width: Math.max(root.clientWidth, 50),
       height: Math.max(root.clientHeight, 50),
-      padding: [6, 4, 0, 0],
+      padding: [6, kPaddingRight_px, 0, 0],
       legend: { show: false },
       cursor: {
         sync: { key: kSync, setSeries: false, scales: ["x", null] },
@@ -61,12 +65,13 @@ export function makePlot(
           size: 24,
           space: 70,
           incrs: kTimeSteps_s,
-          values: (_, splits) => splits.map((t_s) => clock(t_s)),
+          values: (self, splits) => splits.map((t_s) => (fits(self, t_s) ? clock(t_s) : null)),
         },
         {
           ...axis,
           size: 50,
           space: 28,
+          ...(chart.period === undefined ? {} : { incrs: kDegreeSteps }),
           values: (_, splits, __, ___, step) => labels(splits, step, chart.period),
         },
       ],
@@ -114,6 +119,12 @@ function withMargin(low: number | null, high: number | null): [number, number] {
   const lacking = Math.max(kLeastRange - (high - low), 0) / 2;
   const margin = (high - low + 2 * lacking) * kMargin;
   return [low - lacking - margin, high + lacking + margin];
+}
+
+/** The label of a time isn't cut off by the chart's right edge. */
+function fits(plot: uPlot, t_s: number): boolean {
+  const right_px = plot.bbox.width / devicePixelRatio + kPaddingRight_px;
+  return plot.valToPos(t_s, "x") + kHalfTimeLabel_px <= right_px;
 }
 
 function labels(splits: readonly number[], step: number, period: number | undefined): string[] {
