@@ -4,7 +4,7 @@ import L from "leaflet";
 import { identityOf, readColours } from "../map/colours";
 import type { MapAccess } from "../map/map_access";
 import { theme } from "../state/settings";
-import { altitude, altitudeAbove, speed } from "../units/quantities";
+import { altitudeAbove, speed } from "../units/quantities";
 import { toLocal } from "./path_file";
 import { legEnds, midway, type PathPlan, type Place } from "./path_plan";
 import type { Planner } from "./planner";
@@ -158,7 +158,7 @@ export class MapEditor {
           at,
           text: String(i + 1),
           label: `Waypoint ${i + 1}: ${values}${problem === undefined ? "" : `. ${problem}`}`,
-          caption: (plan?.waypoints.length ?? 0) > kMostCaptions ? "" : altitude.full(point.up_m),
+          caption: (plan?.waypoints.length ?? 0) > kMostCaptions ? "" : altitudeAbove(point.up_m),
           selected: draft?.selected.value === i,
           problem: problem !== undefined,
         },
