@@ -89,7 +89,7 @@ function Filters({ text, least_severity, only_selected }: FiltersProps) {
       <input
         type="search"
         class="field"
-        placeholder="Search: a word, a callsign"
+        placeholder="Search"
         aria-label="Search events"
         value={text.value}
         onInput={(event) => {

@@ -13,7 +13,12 @@ export const side_width_px = remembered("layout.side_px", 320, within(240, 700))
 
 export const dock_open = remembered("layout.dock_open", true, yesOrNo);
 export const dock_panel = remembered("layout.dock", "", text);
-export const dock_height_px = remembered("layout.dock_px", 216, within(120, 1400));
+/** A share of the screen at first: six rows on a laptop, more where there is room. */
+export const dock_height_px = remembered(
+  "layout.dock_px",
+  Math.round(Math.max(216, 0.3 * innerHeight)),
+  within(120, 1400),
+);
 
 /** Opens a panel in the drawer, or closes it when it is open. */
 export function toggleDrawer(id: string): void {
