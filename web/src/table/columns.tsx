@@ -3,7 +3,7 @@ import type { VNode } from "preact";
 import { Chain, kLinkNames, Lamp } from "../panels/icons";
 import type { UavRow } from "../state/rows";
 import { compass, fixed, kNone } from "../units/format";
-import { altitude, distance, kAltitudeReference, speed } from "../units/quantities";
+import { altitude, distance, errorText, kAltitudeReference, speed } from "../units/quantities";
 import type { CellContext } from "./cell_context";
 import { Chip } from "./chip";
 import { LinkButtons } from "./link_buttons";
@@ -32,6 +32,9 @@ export interface Column {
 
 /** Below this the link is as good as it can be, and its age is no news [s]. */
 const kShownAge_s = 1;
+
+/** What takes longer is far from a threat, and would not fit [s]. */
+const kLongTau_s = 999;
 
 function link(direction: string, state: number, age_s: number): VNode {
   const age = age_s >= kShownAge_s ? `${fixed(Math.min(age_s, 9999))} s` : "";
@@ -116,7 +119,7 @@ export const kColumns: readonly Column[] = [
     width_px: 64,
     sort: "forward",
     class: "value error",
-    cell: (row) => number(row.error?.forward_m, (m) => distance.text(m, 1)),
+    cell: (row) => number(row.error?.forward_m, (m) => errorText(distance, m)),
   },
   {
     ...right,
@@ -128,7 +131,7 @@ export const kColumns: readonly Column[] = [
     width_px: 64,
     sort: "left",
     class: "value error",
-    cell: (row) => number(row.error?.left_m, (m) => distance.text(m, 1)),
+    cell: (row) => number(row.error?.left_m, (m) => errorText(distance, m)),
   },
   {
     ...right,
@@ -140,7 +143,7 @@ export const kColumns: readonly Column[] = [
     width_px: 64,
     sort: "up",
     class: "value error",
-    cell: (row) => number(row.error?.up_m, (m) => altitude.text(m, 1)),
+    cell: (row) => number(row.error?.up_m, (m) => errorText(altitude, m)),
   },
   {
     ...right,
@@ -205,7 +208,7 @@ export const kColumns: readonly Column[] = [
     sort: "tau",
     rising: true,
     class: "value tau",
-    cell: (row) => number(row.tau?.seconds, fixed),
+    cell: (row) => number(row.tau?.seconds, (s) => (s < kLongTau_s ? fixed(s) : `>${kLongTau_s}`)),
   },
   {
     ...right,
