@@ -204,7 +204,7 @@ export const kColumns: readonly Column[] = [
     head: "Tau",
     detail: () => "s",
     meaning: "Time until the closest approach to it; a dash: nobody closes",
-    width_px: 46,
+    width_px: 52,
     sort: "tau",
     rising: true,
     class: "value tau",
@@ -253,7 +253,7 @@ export const kColumns: readonly Column[] = [
     name: "Payload",
     head: "Payload",
     meaning: "On or off, as telemetry says",
-    width_px: 66,
+    width_px: 60,
     align: "centre",
     sort: "payload",
     // Key by id: what was pressed belongs to a UAV, not to a place in the table.
