@@ -120,6 +120,30 @@ test("on a tablet, upright or not, nothing is out of reach", async () => {
   await screen.page.locator(".alarms").waitFor();
 });
 
+test("panels as wide and high as on a large screen leave room for the map on a small one", async () => {
+  const { page } = screen;
+  await page.setViewportSize({ width: 3840, height: 2160 });
+  const grow = async (label: string, key: string) => {
+    const splitter = page.getByRole("separator", { name: label });
+    const most = Number(await splitter.getAttribute("aria-valuemax"));
+    await splitter.focus();
+    for (let px = Number(await splitter.getAttribute("aria-valuenow")); px < most; px += 16)
+      await page.keyboard.press(key);
+    expect(await splitter.getAttribute("aria-valuenow")).toBe(String(most));
+  };
+  if ((await page.locator(".drawer").count()) === 0) await screen.button("Plan").click();
+  await grow("Width of Plan", "ArrowRight");
+  await grow("Width of the column", "ArrowLeft");
+  await grow("Height of the dock", "ArrowUp");
+  await screen.picture("panels-at-their-largest", 1280, 720, "dark");
+  expect(await overflow()).toEqual([]);
+  const map = await page.locator(".map").boundingBox();
+  expect(map?.width).toBeGreaterThanOrEqual(240);
+  expect(map?.height).toBeGreaterThanOrEqual(120);
+  const help = await screen.button("Keyboard help").boundingBox();
+  expect((help?.x ?? Infinity) + (help?.width ?? 0)).toBeLessThanOrEqual(1280);
+});
+
 test("nothing was complained of, and no request left this machine", () => {
   expect(screen.complaints).toEqual([]);
   expect(screen.strangers).toEqual([]);
