@@ -161,6 +161,24 @@ test("one finger pans the map, two zoom it", async () => {
   await until(async () => expect(apart(await uavAt(1), await uavAt(2))).toBeGreaterThan(1.3 * near));
 });
 
+test("a tap selects a UAV, a tap beside it none", async () => {
+  explain(station);
+  await screen.page.keyboard.press("f");
+  const map = await screen.page.locator("canvas.fleet").boundingBox();
+  const tap = async (id: number, beside_px = 0) => {
+    const { x, y } = await uavAt(id);
+    await screen.touch([[{ x: x + (map?.x ?? 0) + beside_px, y: y + (map?.y ?? 0) }]]);
+  };
+  for (const id of [1, 2])
+    await until(async () => {
+      await tap(id);
+      expect(await screen.row(id).getAttribute("aria-selected")).toBe("true");
+      expect(await screen.text(".selected-count")).toBe("1 selected");
+    });
+  await tap(1, 120);
+  await until(async () => expect(await screen.text(".selected-count")).toBe("None selected"));
+});
+
 test("the other mouse button, or a long press, adds to the selection and takes out", async () => {
   explain(station);
   await screen.page.keyboard.press("f");
