@@ -284,6 +284,20 @@ bool Valid(const proximity_t& proximity) {
          Chunk(proximity.chunk, proximity.chunk_count) && ValidItems(proximity.vehicles);
 }
 
+bool Valid(const recording_command_t& command) {
+  return ValidRequest(command) && Sequence(command.to_session_id) &&
+         OneOf(command.action, recording_command_t::ACTION_MARKER) && Text(command.operator_name) &&
+         Text(command.text);
+}
+
+bool Valid(const recording_status_t& status) {
+  return Time(status.utime) && Sequence(status.session_id) &&
+         OneOf(status.state, recording_status_t::INTERRUPTED) && Name(status.folder) &&
+         Text(status.recording) && Text(status.part) && Time(status.started_utime) && status.parts >= 0 &&
+         Sequence(status.bytes) && (Sequence(status.free_bytes) || status.free_bytes == -1) &&
+         Text(status.reason);
+}
+
 bool Valid(const simulation_command_t& command) {
   return ValidRequest(command) && OneOf(command.action, simulation_command_t::ACTION_LOAD) &&
          Text(command.scenario) && Sequence(command.seed);

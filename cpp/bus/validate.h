@@ -17,6 +17,8 @@
 #include <skein/path_t.hpp>
 #include <skein/payload_command_t.hpp>
 #include <skein/proximity_t.hpp>
+#include <skein/recording_command_t.hpp>
+#include <skein/recording_status_t.hpp>
 #include <skein/simulation_command_t.hpp>
 
 /// Whether a decoded message keeps what its .lcm file promises: finite numbers of a size that no sum
@@ -44,6 +46,8 @@ bool Valid(const path_command_t& command);
 bool Valid(const path_t& path);
 bool Valid(const payload_command_t& command);
 bool Valid(const proximity_t& proximity);
+bool Valid(const recording_command_t& command);
+bool Valid(const recording_status_t& status);
 bool Valid(const simulation_command_t& command);
 
 }  // namespace skein::bus

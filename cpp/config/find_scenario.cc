@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <fstream>
 #include <map>
+#include <nlohmann/json.hpp>
 
 #include "config/scenario.h"
 
@@ -119,6 +121,15 @@ std::optional<Scenario> ReadScenarioOfFleet(const std::string& name, const fs::p
   if (auto scenario = LoadIfNamed(name, own)) return scenario;
   for (const auto& [bare_name, file] : FilesBeside(own)) {
     if (auto scenario = LoadIfNamed(name, file)) return scenario;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> BareNameOf(const std::string& name) {
+  for (const auto& [bare_name, file] : FilesIn(Folders())) {
+    std::ifstream stream(file);
+    const auto json = nlohmann::json::parse(stream, nullptr, false);
+    if (!name.empty() && json.is_object() && json.contains("name") && json["name"] == name) return bare_name;
   }
   return std::nullopt;
 }

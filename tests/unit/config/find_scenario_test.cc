@@ -60,6 +60,13 @@ TEST(ReadScenarioOfFleet, FindsItByTheNameInTheFile) {
   EXPECT_FALSE(ReadScenarioOfFleet("A fleet of somebody else", own));
 }
 
+TEST(BareNameOf, FindsTheFileOfATitle) {
+  setenv("SKEIN_SCENARIOS", SKEIN_SOURCE_DIR "/scripts/scenarios", 1);
+  EXPECT_EQ(BareNameOf("Triangle on a closed path"), "triangle");
+  EXPECT_EQ(BareNameOf("triangle"), std::nullopt);
+  EXPECT_EQ(BareNameOf(""), std::nullopt);
+}
+
 TEST(ListScenarios, DescribesThoseThatShip) {
   setenv("SKEIN_SCENARIOS", SKEIN_SOURCE_DIR "/scripts/scenarios", 1);
   bool hundred = false;

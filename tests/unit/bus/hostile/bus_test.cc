@@ -59,6 +59,8 @@ void ForEveryType(Visit visit) {
   visit.template operator()<path_command_t>();
   visit.template operator()<path_t>();
   visit.template operator()<payload_command_t>();
+  visit.template operator()<recording_command_t>();
+  visit.template operator()<recording_status_t>();
   visit.template operator()<simulation_command_t>();
   visit.template operator()<proximity_t>();
 }

@@ -231,6 +231,31 @@ proximity_t Sample() {
 }
 
 template <>
+recording_command_t Sample() {
+  auto command = Request<recording_command_t>();
+  command.to_session_id = 1'698'000'000'000'000;
+  command.action = recording_command_t::ACTION_MARKER;
+  command.operator_name = "skein";
+  command.text = "UAV3 sways";
+  return command;
+}
+
+template <>
+recording_status_t Sample() {
+  recording_status_t status;
+  status.utime = 1'700'000'000'000'000;
+  status.session_id = 1'699'000'000'000'000;
+  status.state = recording_status_t::RECORDING;
+  status.folder = "/home/operator/skein/logs";
+  status.recording = "triangle-20261125-143000.lcm";
+  status.part = "triangle-20261125-143000.lcm.01";
+  status.parts = 2;
+  status.bytes = 300'000'000;
+  status.free_bytes = -1;
+  return status;
+}
+
+template <>
 simulation_command_t Sample() {
   auto command = Request<simulation_command_t>();
   command.action = simulation_command_t::ACTION_LOAD;
