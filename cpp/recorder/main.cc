@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
   double quota_gb = 10;
   double keep_free_gb = 1;
   CLI::App& app = node.app();
-  app.add_option("--folder", folder, "Where recordings go")->capture_default_str();
+  app.add_option("--folder", folder, "Where recordings go")->capture_default_str()->take_last();
   app.add_option(
       "--scenario", scenario,
       "Scenario that will fly, for the recording's name until a fleet is heard: a file, or the name of one "

@@ -170,7 +170,11 @@ void Recording::WriteCard() {
 void Recording::Rename(const std::string& stem, const std::string& scenario) {
   const std::string before = name_;
   const std::string stem_before = std::exchange(stem_, stem);
+  // The old card keeps its lock until nothing stands on it any more: nobody may take the parts for old ones
+  // meanwhile.
+  int old_card_fd = -1;
   if (stem != stem_before) {
+    old_card_fd = std::exchange(card_fd_, -1);
     Claim();
     for (int part = 0; part < parts_; ++part) {
       std::error_code missing;  // a part that a person has removed
@@ -181,7 +185,10 @@ void Recording::Rename(const std::string& stem, const std::string& scenario) {
   }
   card_.scenario = scenario;
   WriteCard();
-  if (stem != stem_before) fs::remove(CardPath(folder_, before));
+  if (stem != stem_before) {
+    fs::remove(CardPath(folder_, before));
+    close(old_card_fd);
+  }
 }
 
 }  // namespace skein::recorder

@@ -42,7 +42,7 @@ TEST_P(EveryProgram, RefusesAnUnknownOptionWithExitCode2) {
 
 INSTANTIATE_TEST_SUITE_P(Skein, EveryProgram,
                          ::testing::Values("fleet-simulator", "formation-controller", "collision-monitor",
-                                           "web-bridge", "flight-experiment", "skein"));
+                                           "web-bridge", "flight-recorder", "flight-experiment", "skein"));
 
 class ScenarioReader : public ::testing::TestWithParam<std::string> {
  protected:

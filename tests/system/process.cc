@@ -156,6 +156,17 @@ std::vector<pid_t> ProcessesWith(const std::string& text) {
   return found;
 }
 
+pid_t FindProcess(const std::string& program, const std::string& text) {
+  for (const pid_t process : ProcessesWith(text)) {
+    std::error_code gone;
+    if (std::filesystem::read_symlink("/proc/" + std::to_string(process) + "/exe", gone).filename() ==
+        program) {
+      return process;
+    }
+  }
+  return 0;
+}
+
 bool WaitUntilGone(const std::vector<pid_t>& processes, Seconds timeout) {
   const Deadline deadline = Clock::now() + timeout;
   for (const pid_t process : processes) {

@@ -62,6 +62,9 @@ Finished RunToEnd(const std::vector<std::string>& command, Seconds timeout = Sec
 /// The processes of this host whose command line contains `text`.
 std::vector<pid_t> ProcessesWith(const std::string& text);
 
+/// The running process of a program whose command line contains `text`; 0 when there is none.
+pid_t FindProcess(const std::string& program, const std::string& text);
+
 /// Waits until all of these have ended, whoever started them. False when one still runs after `timeout`.
 bool WaitUntilGone(const std::vector<pid_t>& processes, Seconds timeout);
 

@@ -11,11 +11,13 @@
 #include <fstream>
 #include <map>
 #include <skein/heartbeat_t.hpp>
+#include <skein/recording_status_t.hpp>
 #include <string>
 #include <vector>
 
 #include "bus/channels.h"
 #include "system/bus_ear.h"
+#include "system/flight_log.h"
 #include "system/process.h"
 
 namespace skein::testing {
@@ -24,7 +26,7 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::vector<std::string> kNodes{"fleet-simulator", "formation-controller", "collision-monitor",
-                                      "web-bridge"};
+                                      "web-bridge", "flight-recorder"};
 
 std::string RunScript() { return std::string(SKEIN_SOURCE_DIR) + "/scripts/run"; }
 
@@ -36,17 +38,16 @@ class RunScriptTest : public ::testing::Test {
   }
   std::string Address() const { return "http://127.0.0.1:" + std::to_string(port_); }
 
-  /// The running process of this flight with that name; 0 when there is none.
-  pid_t Find(const std::string& program) const {
-    for (const pid_t process : ProcessesWith(url_)) {
-      std::error_code gone;
-      if (std::filesystem::read_symlink("/proc/" + std::to_string(process) + "/exe", gone).filename() ==
-          program) {
-        return process;
-      }
-    }
-    return 0;
+  /// The recording that the end of the script tells of.
+  static std::string LogOf(const Process& run) {
+    const std::size_t begin = run.output().find("logs/triangle-");
+    if (begin == std::string::npos) return "none: " + run.output();
+    const std::string log = run.output().substr(begin, run.output().find(".lcm", begin) + 4 - begin);
+    return std::string(SKEIN_SOURCE_DIR) + "/" + log;
   }
+
+  /// The running process of this flight with that name; 0 when there is none.
+  pid_t Find(const std::string& program) const { return FindProcess(program, url_); }
 
   std::map<std::string, pid_t> All() const {
     std::map<std::string, pid_t> found{{"lcm-logger", Find("lcm-logger")}};
@@ -81,10 +82,7 @@ TEST_F(RunScriptTest, StartsAllTellsTheAddressAndOnCtrlCEndsAllAndTellsTheLog) {
   run.Signal(SIGINT);
   EXPECT_EQ(run.WaitForEnd(15s), 0) << run.output();
   EXPECT_EQ(ProcessesWith(url_).size(), 0U);
-  const std::size_t begin = run.output().find("logs/triangle-");
-  ASSERT_NE(begin, std::string::npos) << run.output();
-  const std::string log = run.output().substr(begin, run.output().find(".lcm", begin) + 4 - begin);
-  EXPECT_GT(std::filesystem::file_size(std::string(SKEIN_SOURCE_DIR) + "/" + log), 1000U);
+  EXPECT_GT(std::filesystem::file_size(LogOf(run)), 1000U);
 }
 
 TEST_F(RunScriptTest, EndsAllOnTermAndMindsNoImpatience) {
@@ -119,6 +117,7 @@ TEST_F(RunScriptTest, BringsAKilledProcessBackWithinTwoSecondsWhileTheOthersGoOn
     EXPECT_TRUE(run.WaitForOutput(victim + " died (signal 9): started again", 1s)) << run.output();
     for (const auto& [name, process] : All()) {
       if (name == victim) continue;
+      if (victim == "flight-recorder" && name == "lcm-logger") continue;  // it ends with its recorder
       EXPECT_EQ(process, before.at(name)) << name;
     }
   }
@@ -126,15 +125,29 @@ TEST_F(RunScriptTest, BringsAKilledProcessBackWithinTwoSecondsWhileTheOthersGoOn
   EXPECT_EQ(run.WaitForEnd(15s), 0) << run.output();
 }
 
-TEST_F(RunScriptTest, GoesOnRecordingInASecondFileWhenTheRecorderWasKilled) {
+TEST_F(RunScriptTest, GoesOnRecordingInASecondFileWhenTheLoggerWasKilled) {
   Process run(Command());
   ASSERT_TRUE(run.WaitForOutput(Address(), 60s)) << run.output();
   kill(Find("lcm-logger"), SIGKILL);
-  ASSERT_TRUE(run.WaitForOutput("lcm-logger died (signal 9): started again", 2s)) << run.output();
-  ASSERT_TRUE(HearsHeartbeat(url_, "fleet-simulator"));  // a second of flight
+  EXPECT_TRUE(Hears<recording_status_t>(
+      url_, bus::channel::kRecording,
+      [](const recording_status_t& status) {
+        return status.state == recording_status_t::RECORDING && status.parts == 2;
+      },
+      2s));
   run.Signal(SIGINT);
   EXPECT_EQ(run.WaitForEnd(15s), 0) << run.output();
-  EXPECT_NE(run.output().find("-2.lcm"), std::string::npos) << run.output();
+  EXPECT_NE(run.output().find("MB in 2 files)"), std::string::npos) << run.output();
+}
+
+TEST_F(RunScriptTest, RecordsTheFlightFromItsFirstTick) {
+  Process run(Command());
+  ASSERT_TRUE(run.WaitForOutput(Address(), 60s)) << run.output();
+  run.Signal(SIGINT);
+  EXPECT_EQ(run.WaitForEnd(15s), 0) << run.output();
+  const FlightLog log = ReadFlightLog(LogOf(run));
+  ASSERT_FALSE(log.curves.empty());
+  for (const auto& [id, curve] : log.curves) EXPECT_EQ(curve.front().t_s, 0) << "UAV " << id;
 }
 
 TEST_F(RunScriptTest, GivesAProcessUpThatDiesOverAndOver) {
