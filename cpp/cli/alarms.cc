@@ -4,7 +4,6 @@
 
 #include <array>
 #include <charconv>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <skein/alarm_command_t.hpp>
 #include <string_view>
@@ -29,11 +28,6 @@ const alarm_list_t& List(Station& station) {
         fmt::format("no alarms were heard for 2.5 s: is {} running, and on this LCM URL?", kMonitor));
   }
   return *station.picture().alarms;
-}
-
-std::string OperatorName() {
-  const char* user = std::getenv("USER");
-  return user && *user ? std::string("skein, ") + user : "skein";
 }
 
 std::string State(const alarm_t& alarm, bus::Utime now) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "bus/transport.h"
+#include "cli/recording.h"
 
 namespace skein::cli {
 namespace {
@@ -36,6 +37,7 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   AddScenario();
   AddStatus();
   AddAlarms();
+  AddRecord();
   log_.Add(app_, [this](LogCommandLine::Command command) { offline_command_ = std::move(command); });
 }
 
@@ -182,6 +184,25 @@ void CommandLine::AddAlarms() {
   unshelve->callback([this] {
     command_ = [this](Station& station, std::ostream& out) { UnshelveAlarms(station, alarm_ids_, out); };
   });
+}
+
+void CommandLine::AddRecord() {
+  CLI::App* group = Group(app_, "record", "The recording of the flight");
+  const auto add = [&](const char* name, const char* description, auto run) {
+    CLI::App* command = group->add_subcommand(name, description);
+    command->callback([this, run] { command_ = run; });
+    return command;
+  };
+  add("start", "Begin a recording", StartRecording);
+  add("stop", "End the recording", StopRecording);
+  CLI::App* marker = group->add_subcommand("marker", "Put a note into the recording, for all to see");
+  marker->add_option("text", marker_, "What is to be noted")->required();
+  marker->callback([this] {
+    command_ = [this](Station& station, std::ostream& out) { PutMarker(station, marker_, out); };
+  });
+  add("status", "Whether the flight is recorded, and where", [this](Station& station, std::ostream& out) {
+    ShowRecording(station, json_, out);
+  })->add_flag("--json", json_, "As JSON");
 }
 
 }  // namespace skein::cli

@@ -32,6 +32,7 @@ class CommandLine {
   void AddScenario();
   void AddStatus();
   void AddAlarms();
+  void AddRecord();
 
   CLI::App app_;
   std::string lcm_url_;
@@ -47,6 +48,7 @@ class CommandLine {
   std::vector<std::string> vehicles_;
   std::string file_;
   std::string scenario_;
+  std::string marker_;
   int id_ = 0;
   bool json_ = false;
 };

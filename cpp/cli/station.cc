@@ -1,5 +1,7 @@
 #include "cli/station.h"
 
+#include <cstdlib>
+
 #include "bus/channels.h"
 #include "bus/chunks.h"
 
@@ -14,6 +16,11 @@ constexpr int kTries = 3;
 constexpr bus::Utime kRosterLimit = 3 * bus::kSecond;
 
 }  // namespace
+
+std::string OperatorName() {
+  const char* user = std::getenv("USER");
+  return user && *user ? std::string("skein, ") + user : "skein";
+}
 
 Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)) {
   bus::SubscribeChunks<fleet_roster_t>(bus, channel::kFleetRoster,
@@ -38,6 +45,8 @@ Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)) {
   });
   bus.Subscribe<path_t>(channel::kPath,
                         [this](const path_t& path) { picture_.paths[path.formation_id] = path; });
+  bus.Subscribe<recording_status_t>(
+      channel::kRecording, [this](const recording_status_t& status) { picture_.recording = status; });
   bus.Subscribe<ack_t>(channel::kAck, [this](const ack_t& ack) {
     if (ack.command_session_id != bus_.session_id()) return;
     answers_[{ack.command_channel, ack.command_request_id}] = {ack.accepted != 0, ack.reason};

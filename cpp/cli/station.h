@@ -12,6 +12,7 @@
 #include <skein/link_status_t.hpp>
 #include <skein/path_t.hpp>
 #include <skein/proximity_t.hpp>
+#include <skein/recording_status_t.hpp>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -31,6 +32,9 @@ class Interrupted : public Failure {
   using Failure::Failure;
 };
 
+/// Who commands, for people: "skein, ada".
+std::string OperatorName();
+
 /// What has been heard of the fleet since the start.
 struct Picture {
   std::optional<fleet_roster_t> roster;
@@ -38,6 +42,7 @@ struct Picture {
   std::optional<proximity_t> proximity;
   std::optional<link_status_t> links;
   std::optional<alarm_list_t> alarms;
+  std::optional<recording_status_t> recording;
   std::map<int, formation_t> formations;
   std::map<int, path_t> paths;
   std::map<int, formation_status_t> statuses;
