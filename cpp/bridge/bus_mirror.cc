@@ -56,6 +56,7 @@ BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
   bus.Subscribe<path_t>(channel::kPath, [this](const auto& path) { Hear(path); });
   bus.Subscribe<event_t>(channel::kEvent, [this](const auto& event) { Hear(event); });
   bus.Subscribe<heartbeat_t>(channel::kHeartbeat, [this](const auto& heartbeat) { Hear(heartbeat); });
+  bus.Subscribe<recording_status_t>(channel::kRecording, [this](const auto& status) { Hear(status); });
   bus.executor().Every(kMotionPeriod, [this] { SendMotion(); });
   bus.executor().Every(kStatusPeriod, [this] { SendStatusSoon(); });
   bus.executor().Every(kLookPeriod, [this] { Look(); });
@@ -163,6 +164,15 @@ void BusMirror::Hear(const alarm_list_t& list) {
   sink_(TextFrame(Dump(alarms_), "alarms"));
 }
 
+void BusMirror::Hear(const recording_status_t& status) {
+  recording_ = {ToJson(status), Now()};
+  sink_(TextFrame(Dump(recording_.shown), "recording"));
+}
+
+Json BusMirror::Recording() const {
+  return Now() - recording_.heard_at < kSilentAfter ? recording_.shown : Json();
+}
+
 void BusMirror::Look() {
   std::set<std::string> silent;
   for (const auto& [node, heartbeat] : heartbeats_) {
@@ -245,6 +255,9 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
     frames.push_back(TextFrame(Dump(heartbeat.shown), "heartbeat/" + node));
   }
   if (!alarms_.is_null()) frames.push_back(TextFrame(Dump(alarms_), "alarms"));
+  if (const Json recording = Recording(); !recording.is_null()) {
+    frames.push_back(TextFrame(Dump(recording), "recording"));
+  }
   for (const Json& event : events_) frames.push_back(TextFrame(Dump(event)));
   if (!fleet_.rows().empty()) {
     frames.push_back(Motion());
@@ -301,6 +314,7 @@ Json BusMirror::State() const {
                 {"statuses", Json::array()},
                 {"heartbeats", Json::array()},
                 {"alarms", alarms_},
+                {"recording", Recording()},
                 {"events", Json(events_)}};
   for (const auto& [id, formation] : formations_) state["formations"].push_back(formation.shown);
   for (const auto& [id, path] : paths_) state["paths"].push_back(path.shown);

@@ -83,6 +83,7 @@ class BusMirror {
   void Hear(const event_t& event);
   void Hear(const heartbeat_t& heartbeat);
   void Hear(const alarm_list_t& list);
+  void Hear(const recording_status_t& status);
 
   void Draw(DrawnPath& path);
   void Look();
@@ -98,6 +99,8 @@ class BusMirror {
   FrameTime Time() const;
   Json Hello() const;
   Json Silent() const;
+  /// Null when it was not heard of late.
+  Json Recording() const;
   LiveFrame Motion() const;
   LiveFrame Status() const;
 
@@ -118,6 +121,7 @@ class BusMirror {
   std::map<std::int32_t, DrawnPath> paths_;
   std::map<std::string, Repeated> heartbeats_;
   Json alarms_;  ///< null: none yet
+  Repeated recording_;
   std::set<std::string> silent_;
   std::deque<Json> events_;
   bool motion_skipped_ = false;

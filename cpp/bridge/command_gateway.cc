@@ -14,6 +14,7 @@ using Outcome = CommandResult::Outcome;
 
 const char* Obeys(const std::string& channel) {
   if (channel == bus::channel::kCmdAlarm) return "collision-monitor";
+  if (channel == bus::channel::kCmdRecording) return "flight-recorder";
   const bool fleet = channel == bus::channel::kCmdLink || channel == bus::channel::kCmdPayload ||
                      channel == bus::channel::kCmdSimulation;
   return fleet ? "fleet-simulator" : "formation-controller";
@@ -44,10 +45,12 @@ void CommandGateway::Send(const std::string& channel, const nlohmann::json& body
       Publish(channel, ParseSimulationCommand(body), done);
     } else if (channel == bus::channel::kCmdAlarm) {
       Publish(channel, ParseAlarmCommand(body), done);
+    } else if (channel == bus::channel::kCmdRecording) {
+      Publish(channel, ParseRecordingCommand(body), done);
     } else {
       done({Outcome::kMalformed,
-            "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH, CMD_SIMULATION or CMD_ALARM, "
-            "is " +
+            "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH, CMD_SIMULATION, CMD_ALARM or "
+            "CMD_RECORDING, is " +
                 channel.substr(0, 40)});
     }
   } catch (const config::ConfigError& error) {

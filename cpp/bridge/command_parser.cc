@@ -194,4 +194,18 @@ alarm_command_t ParseAlarmCommand(const nlohmann::json& body) {
   return command;
 }
 
+recording_command_t ParseRecordingCommand(const nlohmann::json& body) {
+  const Object object(Value::FromJson(body, bus::channel::kCmdRecording),
+                      {"action", "text", "operator_name"});
+  recording_command_t command{};
+  command.action = Choice(object.At("action"), {"start", "stop", "marker"});
+  if (command.action == recording_command_t::ACTION_MARKER) {
+    command.text = object.At("text").Text();
+  } else if (const auto text = object.Find("text")) {
+    text->Refuse("goes with marker only");
+  }
+  command.operator_name = object.Text("operator_name", "web");
+  return command;
+}
+
 }  // namespace skein::bridge

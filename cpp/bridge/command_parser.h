@@ -6,6 +6,7 @@
 #include <skein/link_command_t.hpp>
 #include <skein/path_command_t.hpp>
 #include <skein/payload_command_t.hpp>
+#include <skein/recording_command_t.hpp>
 #include <skein/simulation_command_t.hpp>
 
 #include "bus/executor.h"
@@ -22,6 +23,7 @@ formation_command_t ParseFormationCommand(const nlohmann::json& body);
 path_command_t ParsePathCommand(const nlohmann::json& body);
 simulation_command_t ParseSimulationCommand(const nlohmann::json& body);
 alarm_command_t ParseAlarmCommand(const nlohmann::json& body);
+recording_command_t ParseRecordingCommand(const nlohmann::json& body);
 /// @}
 
 }  // namespace skein::bridge

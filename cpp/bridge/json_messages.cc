@@ -153,6 +153,21 @@ Json ToJson(const alarm_list_t& list) {
           {"alarms", Each(list.alarms, [](const alarm_t& alarm) { return bus::ToJson(alarm); })}};
 }
 
+Json ToJson(const recording_status_t& status) {
+  return {{"type", "recording"},
+          {"utime", status.utime},
+          {"session_id", status.session_id},
+          {"state", status.state},
+          {"folder", status.folder},
+          {"recording", status.recording},
+          {"part", status.part},
+          {"started_utime", status.started_utime},
+          {"parts", status.parts},
+          {"bytes", status.bytes},
+          {"free_bytes", status.free_bytes},
+          {"reason", status.reason}};
+}
+
 Json ToJson(const path_t& path) {
   return {{"type", "path"},
           {"utime", path.utime},

@@ -8,6 +8,7 @@
 #include <skein/formation_t.hpp>
 #include <skein/heartbeat_t.hpp>
 #include <skein/path_t.hpp>
+#include <skein/recording_status_t.hpp>
 #include <string>
 
 namespace skein::bridge {
@@ -22,6 +23,7 @@ Json ToJson(const formation_status_t& status);
 Json ToJson(const event_t& event);
 Json ToJson(const heartbeat_t& heartbeat);
 Json ToJson(const alarm_list_t& list);
+Json ToJson(const recording_status_t& status);
 /// Without "line".
 Json ToJson(const path_t& path);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
@@ -115,6 +117,26 @@ class BusMirrorTest : public testing::Test {
   std::int64_t tick_ = 0;
   std::int64_t sequence_ = 0;
 };
+
+TEST_F(BusMirrorTest, TellsOfTheRecordingButNotWhatIsOldToThoseWhoComeLater) {
+  recording_status_t status;
+  status.state = recording_status_t::RECORDING;
+  status.folder = "/logs";
+  status.recording = "flight.lcm";
+  others_.Publish(channel::kRecording, status);
+  executor_.Deliver();
+  ASSERT_EQ(Texts("recording").size(), 1u);
+  EXPECT_EQ(Texts("recording")[0]["recording"], "flight.lcm");
+  const auto in_snapshot = [&] {
+    return std::ranges::any_of(mirror_.Snapshot(), [](const LiveFrame& frame) {
+      return !frame.binary && Json::parse(*frame.bytes)["type"] == "recording";
+    });
+  };
+  EXPECT_TRUE(in_snapshot());
+  executor_.RunFor(BusMirror::kSilentAfter);
+  EXPECT_FALSE(in_snapshot());
+  EXPECT_TRUE(mirror_.State()["recording"].is_null());
+}
 
 TEST_F(BusMirrorTest, TellsTheRosterOnceAndAgainWhenItChanges) {
   bus::PublishChunks(others_, channel::kFleetRoster, Roster(300));

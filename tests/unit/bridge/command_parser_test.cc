@@ -143,6 +143,20 @@ TEST(PathCommand, MayBeEmptyButNotTooLong) {
       std::string::npos);
 }
 
+TEST(RecordingCommand, HasATextWithAMarkerOnly) {
+  const auto marker =
+      ParseRecordingCommand(json::parse(R"({"action": "marker", "text": "gusts", "operator_name": "Ann"})"));
+  EXPECT_EQ(marker.action, recording_command_t::ACTION_MARKER);
+  EXPECT_EQ(marker.text, "gusts");
+  EXPECT_EQ(marker.operator_name, "Ann");
+  const auto stop = ParseRecordingCommand(json::parse(R"({"action": "stop"})"));
+  EXPECT_EQ(stop.action, recording_command_t::ACTION_STOP);
+  EXPECT_EQ(stop.operator_name, "web");
+  EXPECT_NE(Refusal(ParseRecordingCommand, R"({"action": "marker"})").find("text"), std::string::npos);
+  EXPECT_EQ(Refusal(ParseRecordingCommand, R"({"action": "start", "text": "x"})"),
+            "CMD_RECORDING: /text: goes with marker only");
+}
+
 TEST(AlarmCommand, NamesAlarmsOrAllUpToOne) {
   const auto one = ParseAlarmCommand(json::parse(
       R"({"action": "acknowledge", "alarm_session_id": 1795316000123456, "alarm_ids": [7], "operator_name": "Ann"})"));
