@@ -16,6 +16,8 @@ import multicast_route
 
 START_TIMEOUT_S = 20
 STOP_TIMEOUT_S = 5
+# Without a recording, for want of room say, the flight begins all the same: the page tells.
+RECORDING_TIMEOUT_S = 2
 # A process that dies this often within this time is not started again.
 DEATHS, DEATHS_WITHIN_S = 5, 30
 
@@ -34,13 +36,13 @@ def say(text):
     print(text, flush=True)
 
 
-def pause():
-    if asked_to_end.wait(0.1):
+def pause(seconds=0.1):
+    if asked_to_end.wait(seconds):
         raise Interrupted
 
 
 class Process:
-    """One program of the flight. `command` is a function, as a recorder needs a new file each time."""
+    """One program of the flight."""
 
     def __init__(self, name, command, output):
         self.name, self.command, self.output = name, command, output
@@ -51,7 +53,7 @@ class Process:
         # In a session of its own, Ctrl-C reaches it through us alone, so that the recorder can end last; and should
         # we be killed outright, the kernel ends it.
         with open(self.output, "ab") as output:
-            self.child = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", "--", *self.command()],
+            self.child = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", "--", *self.command],
                                           stdin=subprocess.DEVNULL, stdout=output, stderr=output,
                                           start_new_session=True)
 
@@ -95,11 +97,10 @@ class Process:
 class Flight:
     def __init__(self, options):
         self.options = options
-        name = f"{options.scenario.stem}-{time.strftime('%Y%m%d-%H%M%S')}"
-        self.log = options.root / "logs" / f"{name}.lcm"
-        self.folder = options.root / "logs" / name
+        self.start_utime = time.time() * 1e6
+        self.logs = options.root / "logs"
+        self.folder = self.logs / f"{options.scenario.stem}-{time.strftime('%Y%m%d-%H%M%S')}"
         self.folder.mkdir(parents=True)
-        self.recordings = []
         self.route = multicast_route.Route(options.lcm_url, say)
         binaries = options.root / "build" / "bin"
         scenario = ["--scenario", str(options.scenario)]
@@ -107,27 +108,42 @@ class Flight:
 
         def node(program, *arguments):
             command = [str(binaries / program), "--lcm-url", options.lcm_url, *arguments]
-            return Process(program, lambda: command, self.folder / f"{program}.txt")
+            return Process(program, command, self.folder / f"{program}.txt")
 
-        self.recorder = Process("lcm-logger", self.record_command, self.folder / "lcm-logger.txt")
+        self.recorder = node("flight-recorder", "--folder", str(self.logs), *scenario)
+        self.simulator = node("fleet-simulator", *scenario)
         self.nodes = [
             node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist"), *tiles),
             node("collision-monitor", *scenario),
             node("formation-controller", *scenario, "--state-file", str(self.folder / "formation-controller.state")),
-            node("fleet-simulator", *scenario),
+            self.simulator,
         ]
-        # The recorder first and the simulator last: so the log holds the flight from its first tick.
         self.processes = [self.recorder, *self.nodes]
 
-    def record_command(self):
-        again = len(self.recordings)
-        self.recordings.append(self.log.with_stem(f"{self.log.stem}-{again + 1}") if again else self.log)
-        return ["lcm-logger", "--quiet", f"--lcm-url={self.options.lcm_url}", str(self.recordings[-1])]
+    def recordings(self):
+        """What flight-recorder has recorded on this bus since the start: (file, number of files, bytes), by its cards."""
+        found = []
+        for card in sorted(self.logs.glob("*.lcm.json")):
+            try:
+                content = json.loads(card.read_text())
+                files = [self.logs / part["file"] for part in content["parts"]]
+                sizes = [file.stat().st_size for file in files if file.exists()]
+                if content["lcm_url"] == self.options.lcm_url and content["start_utime"] > self.start_utime and sizes:
+                    found.append((card.with_suffix(""), len(sizes), sum(sizes)))
+            except (OSError, ValueError, KeyError, TypeError):
+                pass  # just being written, or somebody else's
+        return found
 
     def start(self):
         self.route.add_if_missing()
         for process in self.processes:
-            process.start()
+            if process is not self.simulator:
+                process.start()
+        # Something is recorded before the simulator starts: so the log holds the flight from its first tick.
+        recording_by = time.monotonic() + RECORDING_TIMEOUT_S
+        while not self.recordings() and self.recorder.runs() and time.monotonic() < recording_by:
+            pause(0.01)
+        self.simulator.start()
         deadline = time.monotonic() + START_TIMEOUT_S
         tell_at = time.monotonic() + 1
         while silent := self.silent():
@@ -151,8 +167,6 @@ class Flight:
                 heard = {beat["heartbeat_node"] for beat in json.load(answer)["heartbeats"]}
         except (urllib.error.URLError, OSError, ValueError):
             pass
-        if self.log.exists() and self.log.stat().st_size > 0:
-            heard.add(self.recorder.name)
         return [process.name for process in self.processes if process.name not in heard]
 
     def keep_running(self):
@@ -172,10 +186,9 @@ class Flight:
                 if process.child:
                     process.await_end(deadline)
         self.route.remove()
-        for recording in self.recordings:
-            if recording.exists():
-                size_mb = recording.stat().st_size / 1e6
-                say(f"The log is {os.path.relpath(recording)} ({size_mb:.1f} MB); scripts/replay plays it")
+        for file, count, size in self.recordings():
+            files = "" if count == 1 else f" in {count} files"
+            say(f"The log is {os.path.relpath(file)} ({size / 1e6:.1f} MB{files}); scripts/replay plays it")
 
 
 def main():
