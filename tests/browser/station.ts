@@ -1,6 +1,8 @@
 /** The ground station's processes, real ones, on a bus and a port that nobody else uses. */
 import { spawn, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import { onTestFailed } from "vitest";
 
@@ -15,7 +17,8 @@ const kPort = String(kFirstPort + kWorker);
 const kWeb = `${kHere}../../web/dist`;
 
 const kNodes = ["web-bridge", "fleet-simulator", "formation-controller", "collision-monitor"] as const;
-export type NodeName = (typeof kNodes)[number];
+/** flight-recorder is started only where it is named. */
+export type NodeName = (typeof kNodes)[number] | "flight-recorder";
 export const kPageUrl = `http://127.0.0.1:${kPort}/`;
 
 interface Running {
@@ -40,10 +43,16 @@ export function explain(...stations: readonly Station[]): void {
 
 export class Station {
   private readonly running = new Map<NodeName, Running>();
+  /** Where flight-recorder records; gone with `stopAll`. */
+  private recordings = "";
 
   constructor(private readonly options: StationOptions) {}
 
   private argumentsOf(name: NodeName): string[] {
+    if (name === "flight-recorder") {
+      this.recordings ||= mkdtempSync(`${tmpdir()}/skein-browser-logs-`);
+      return ["--folder", this.recordings, "--keep-free-gb", "0"];
+    }
     return name === "web-bridge"
       ? ["--port", kPort, "--web", kWeb, ...(this.options.bridge ?? [])]
       : ["--scenario", `${kHere}scenarios/${this.options.scenario}`];
@@ -85,8 +94,18 @@ export class Station {
     );
   }
 
-  stopAll(): Promise<void> {
-    return this.stop(...this.running.keys());
+  async stopAll(): Promise<void> {
+    await this.stop(...this.running.keys());
+    if (this.recordings !== "") rmSync(this.recordings, { recursive: true, force: true });
+  }
+
+  /** Kills the lcm-logger of flight-recorder outright. */
+  killLogger(): void {
+    const pid = this.running.get("flight-recorder")?.process.pid ?? 0;
+    const children = readFileSync(`/proc/${pid}/task/${pid}/children`, "utf8").trim().split(" ");
+    const [logger] = children.map(Number);
+    if (logger === undefined || !(logger > 1)) throw new Error("flight-recorder has no lcm-logger");
+    process.kill(logger, "SIGKILL");
   }
 
   /** Waits until the bridge that runs now has heard a node. */

@@ -182,6 +182,25 @@ export interface AlarmList {
   alarms: Alarm[];
 }
 
+export interface RecordingStatus {
+  type: "recording";
+  utime: number;
+  /** 0 stopped by an operator, 1 recording, 2 interrupted: recording_status_t. */
+  state: number;
+  folder: string;
+  /** Its name, which is that of its first file; "": none yet. */
+  recording: string;
+  part: string;
+  /** 0: none yet. */
+  started_utime: number;
+  parts: number;
+  bytes: number;
+  /** -1: not known. */
+  free_bytes: number;
+  /** Why it isn't recording; "" while it is. */
+  reason: string;
+}
+
 export interface Heartbeat {
   type: "heartbeat";
   utime: number;
@@ -212,6 +231,7 @@ export type ServerMessage =
   | FormationStatus
   | BusEvent
   | AlarmList
+  | RecordingStatus
   | Heartbeat
   | Ack
   | BusHealth
@@ -246,12 +266,17 @@ export interface AlarmBody {
   operator_name?: string;
 }
 
+export type RecordingBody = { operator_name?: string } & (
+  { action: "start" | "stop" } | { action: "marker"; text: string }
+);
+
 export interface CommandBodies {
   CMD_LINK: LinkBody;
   CMD_SIMULATION: { action: "restart" } | { action: "load"; scenario: string };
   CMD_PAYLOAD: { vehicle_ids: number[]; on: boolean };
   CMD_PATH: { formation_id: number; closed: boolean; waypoints: readonly Waypoint[] };
   CMD_ALARM: AlarmBody;
+  CMD_RECORDING: RecordingBody;
   CMD_FORMATION:
     | { action: "apply"; formation: FormationBody }
     | { action: "hold" | "resume" | "remove"; formation: { formation_id: number } };

@@ -1,3 +1,4 @@
+import { RecordingPill } from "../recording/recording_pill";
 import { ControlPill } from "../control/control_pill";
 import { AlarmBadges } from "../alarms/alarm_badges";
 import { HoldControl } from "../formation/hold_control";
@@ -24,6 +25,7 @@ export function TopBar({ station }: PanelProps) {
       <HoldControl station={station} />
       <ControlPill station={station} />
       <AlarmBadges station={station} />
+      <RecordingPill station={station} />
       <ConnectionPill store={store} />
       <SettingsMenu />
       <button

@@ -11,6 +11,7 @@ import type {
   Heartbeat,
   Hello,
   Path,
+  RecordingStatus,
   Roster,
   ServerMessage,
 } from "../link/messages";
@@ -36,6 +37,10 @@ export class Store {
   readonly heartbeats = signal<ReadonlyMap<string, Heartbeat>>(new Map());
   /** Null: the bridge has heard none. */
   readonly alarms = signal<AlarmList | null>(null);
+  /** Null: the bridge has heard none of late. */
+  readonly recording = signal<RecordingStatus | null>(null);
+  /** When it came (performance.now). */
+  recording_ms = 0;
   readonly silent_nodes = signal<readonly string[]>([]);
   /** Newest first. */
   readonly events = signal<readonly BusEvent[]>([]);
@@ -86,6 +91,10 @@ export class Store {
         break;
       case "alarms":
         this.alarms.value = message;
+        break;
+      case "recording":
+        this.recording_ms = performance.now();
+        this.recording.value = message;
         break;
       case "heartbeat":
         this.heartbeats.value = withEntry(this.heartbeats.value, message.heartbeat_node, message);
@@ -164,6 +173,7 @@ export class Store {
     this.newest_statuses.clear();
     this.heartbeats.value = new Map();
     this.alarms.value = null;
+    this.recording.value = null;
     this.silent_nodes.value = [];
   }
 

@@ -1,0 +1,158 @@
+import { useSignal } from "@preact/signals";
+import { useEffect, useId, useRef } from "preact/hooks";
+import type { Commands } from "../link/commands";
+import type { RecordingStatus } from "../link/messages";
+import { CommandButton } from "../panels/command_button";
+import type { PanelProps } from "../shell/panel_list";
+import { Popover } from "../shell/popover";
+import { useShortcuts } from "../shell/shortcuts";
+import { byteSize, clock } from "../units/format";
+import { kLongestMarker, markerProblem, recordingView, sendRecording, type RecordingView } from "./recording";
+import "./recording.css";
+
+type Shown = Exclude<RecordingView, { kind: "none" }>;
+
+/** Whether the flight is recorded: always in sight, and what can be done about it. */
+export function RecordingPill({ station }: PanelProps) {
+  const root = useRef<HTMLDivElement>(null);
+  useShortcuts([
+    {
+      keys: "k",
+      label: "Put a marker into the recording",
+      group: "Flight",
+      run: () => {
+        root.current?.querySelector<HTMLButtonElement>('.recording-pill[aria-expanded="false"]')?.click();
+      },
+    },
+  ]);
+  const view = recordingView(station.store, station.store.now_ms.value);
+  if (view.kind === "none") return null;
+  const label =
+    view.kind === "recording"
+      ? `Recording for ${clock(view.elapsed_s)}, ${byteSize(view.status.bytes)}. Recording… (K)`
+      : `Not recording: ${view.why}. Recording… (K)`;
+  return (
+    <div class="recording" ref={root}>
+      <Popover
+        label={label}
+        class={`recording-pill ${view.kind === "recording" ? "on" : "off"}`}
+        button={
+          view.kind === "recording" ? (
+            <>
+              <svg viewBox="0 0 10 10" aria-hidden="true">
+                <circle cx="5" cy="5" r="4" />
+              </svg>
+              <span>Rec</span>
+              <span class="recording-time">{clock(view.elapsed_s)}</span>
+              <span class="recording-size">{byteSize(view.status.bytes)}</span>
+            </>
+          ) : (
+            <>
+              <svg viewBox="0 0 10 10" aria-hidden="true">
+                <path d="M1 1L9 9M9 1L1 9" />
+              </svg>
+              <span>Not recording</span>
+            </>
+          )
+        }
+      >
+        <RecordingMenu view={view} commands={station.commands} />
+      </Popover>
+    </div>
+  );
+}
+
+function RecordingMenu({ view, commands }: { view: Shown; commands: Commands }) {
+  return (
+    <div class="recording-menu">
+      <h2>Recording</h2>
+      {view.kind === "recording" ? <Facts status={view.status} /> : <p>Not recording: {view.why}.</p>}
+      {view.kind === "not" && view.reachable && view.wanted && <p class="hint">It goes on by itself.</p>}
+      {(view.kind === "recording" || view.wanted) && (view.kind === "recording" || view.reachable) && (
+        <CommandButton label="Stop recording" command={() => sendRecording(commands, { action: "stop" })}>
+          Stop
+        </CommandButton>
+      )}
+      {view.kind === "not" && view.reachable && !view.wanted && (
+        <CommandButton
+          class="button primary"
+          label="Start recording"
+          command={() => sendRecording(commands, { action: "start" })}
+        >
+          Start
+        </CommandButton>
+      )}
+      {(view.kind === "recording" || view.reachable) && <MarkerForm commands={commands} />}
+    </div>
+  );
+}
+
+function Facts({ status }: { status: RecordingStatus }) {
+  return (
+    <dl class="recording-facts">
+      <dt>File</dt>
+      <dd title={`${status.folder}/${status.part}`}>{status.recording}</dd>
+      <dt>Size</dt>
+      <dd>
+        {byteSize(status.bytes)}
+        {status.parts > 1 && ` in ${status.parts} files`}
+      </dd>
+      <dt>Disk</dt>
+      <dd>{status.free_bytes < 0 ? "not known" : `${byteSize(status.free_bytes)} free`}</dd>
+    </dl>
+  );
+}
+
+/** A note for whoever sees the recording later, and for all who see this flight. */
+function MarkerForm({ commands }: { commands: Commands }) {
+  const text = useSignal("");
+  const put = useSignal("");
+  const form = useRef<HTMLFormElement>(null);
+  const field = useRef<HTMLInputElement>(null);
+  const id = useId();
+  useEffect(() => {
+    field.current?.focus();
+  }, []);
+  const problem = markerProblem(text.value);
+  const send = async () => {
+    const note = text.value.trim();
+    const outcome = await sendRecording(commands, { action: "marker", text: note });
+    if (outcome.accepted) {
+      text.value = "";
+      put.value = `Put: ${note}${outcome.reason === "" ? "" : ` (${outcome.reason})`}`;
+    }
+    return outcome;
+  };
+  return (
+    <form
+      class="marker-form"
+      ref={form}
+      onSubmit={(event) => {
+        event.preventDefault();
+        form.current?.querySelector("button")?.click();
+      }}
+    >
+      <label for={id}>Marker</label>
+      <input
+        id={id}
+        ref={field}
+        type="text"
+        autocomplete="off"
+        placeholder="What is to be noted"
+        maxLength={2 * kLongestMarker}
+        value={text.value}
+        aria-describedby={`${id}-put`}
+        onInput={(event) => {
+          text.value = event.currentTarget.value;
+          put.value = "";
+        }}
+      />
+      <CommandButton label="Put the marker" disabled={problem !== ""} command={send}>
+        Put
+      </CommandButton>
+      <p id={`${id}-put`} class="hint" role="status">
+        {put.value || (text.value === "" ? "" : problem)}
+      </p>
+    </form>
+  );
+}
