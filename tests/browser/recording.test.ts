@@ -1,24 +1,16 @@
 /** Whether the flight is recorded, as the page tells it, and what an operator does about that. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
-import { Station } from "./station";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Screen, until } from "./screen";
+import { explain, Station } from "./station";
 
 const station = new Station({ scenario: "roles.json" });
 let ada: Screen;
 let bob: Screen;
 
-const until = (what: () => Promise<void> | void, timeout = 10_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
 const pill = (screen: Screen) => screen.page.locator(".recording-pill");
 const menu = (screen: Screen) => screen.page.locator(".recording-menu");
 const says = (text: string) => until(async () => expect(await pill(ada).innerText()).toContain(text));
 const events = (screen: Screen) => screen.page.locator(".events");
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
 
 beforeAll(async () => {
   station.start();
@@ -37,7 +29,7 @@ afterAll(async () => {
 });
 
 test("a flight that nobody records says so, and why", async () => {
-  explain();
+  explain(station);
   await says("Not recording");
   expect(await pill(ada).getAttribute("title")).toContain("flight-recorder isn't heard");
   await ada.picture("not-recording", 1280, 720, "dark");
@@ -45,7 +37,7 @@ test("a flight that nobody records says so, and why", async () => {
 });
 
 test("with flight-recorder on the bus, the time and the size of the recording are in sight", async () => {
-  explain();
+  explain(station);
   station.start("flight-recorder");
   await says("Rec");
   await events(ada).getByText("recording to ").first().waitFor();
@@ -58,7 +50,7 @@ test("with flight-recorder on the bus, the time and the size of the recording ar
 });
 
 test("a marker is put by keyboard alone, and all can read it", async () => {
-  explain();
+  explain(station);
   await ada.page.keyboard.press("k");
   await ada.page.getByLabel("Marker", { exact: true }).waitFor();
   await ada.page.keyboard.type("Gusts from here on");
@@ -69,7 +61,7 @@ test("a marker is put by keyboard alone, and all can read it", async () => {
 });
 
 test("who only looks on can neither stop the recording nor write into it, and is told why", async () => {
-  explain();
+  explain(station);
   await pill(bob).click();
   await bob.button("Stop recording").click({ force: true });
   expect(await bob.text(".refusal")).toContain("holds control");
@@ -82,7 +74,7 @@ test("who only looks on can neither stop the recording nor write into it, and is
 });
 
 test("the operator stops it and starts another one", async () => {
-  explain();
+  explain(station);
   await pill(ada).click();
   await ada.button("Stop recording").click();
   await says("Not recording");
@@ -98,7 +90,7 @@ test("the operator stops it and starts another one", async () => {
 });
 
 test("a killed logger is seen at once, and within two seconds it records again in a second file", async () => {
-  explain();
+  explain(station);
   await ada.page.evaluate(() => {
     const seen: string[] = [];
     Object.assign(window, { seen });
@@ -123,7 +115,7 @@ test("a killed logger is seen at once, and within two seconds it records again i
 });
 
 test("a recorder that is gone is not believed any longer", async () => {
-  explain();
+  explain(station);
   await station.stop("flight-recorder");
   await says("Not recording");
   await until(async () =>

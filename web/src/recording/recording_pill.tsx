@@ -3,7 +3,7 @@ import { useEffect, useId, useRef } from "preact/hooks";
 import type { Commands } from "../link/commands";
 import type { RecordingStatus } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
 import { useShortcuts } from "../shell/shortcuts";
 import { byteSize, clock } from "../units/format";
