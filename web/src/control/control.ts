@@ -2,6 +2,7 @@
 import { computed, signal } from "@preact/signals";
 import type { Commands, Outcome } from "../link/commands";
 import { remembered, yesOrNo } from "../state/remembered";
+import { replay, whyReplay } from "../state/replay";
 import { newsOf, whyNot, youHold, type ControlMessage } from "./people";
 
 /** Where a tab keeps the token by which the bridge knows it after a reload. A duplicated tab has a copy, and is given another. */
@@ -10,7 +11,7 @@ const kTokenKey = "skein.control.token";
 const control = signal<ControlMessage | null>(null);
 
 /** Why this page may not command; "" when it may. */
-export const why_no_command = computed(() => whyNot(control.value));
+export const why_no_command = computed(() => whyReplay(replay.value) || whyNot(control.value));
 
 export const person_name = remembered("control.name", "", (stored) =>
   typeof stored === "string" ? stored : null,

@@ -4,6 +4,7 @@ import { CommandButton } from "../panels/command_button";
 import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
 import { useShortcuts } from "../shell/shortcuts";
+import { replay } from "../state/replay";
 import { person_name, view_only, type Control } from "./control";
 import { holderOf, nameProblem, othersOf, youHold, youOf, type ControlMessage } from "./people";
 import { TakeOver } from "./take_over";
@@ -23,7 +24,7 @@ export function ControlPill({ station }: PanelProps) {
       },
     },
   ]);
-  if (state === null || station.store.connection.value.kind !== "open") return null;
+  if (state === null || replay.value !== null || station.store.connection.value.kind !== "open") return null;
   const holder = holderOf(state);
   const you_hold = youHold(state);
   const who = you_hold

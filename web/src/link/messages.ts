@@ -1,6 +1,7 @@
 /** Text messages of the live link (cpp/bridge/README.md). Names and units are those of the LCM fields. */
 
 import type { ControlMessage } from "../control/people";
+import type { Replay } from "../state/replay";
 
 export interface Hello {
   type: "hello";
@@ -11,6 +12,8 @@ export interface Hello {
   tile_attribution: string;
   /** The map that the bridge serves; null without one. */
   tiles: LocalTiles | null;
+  /** Null, or left out by an older bridge: live. */
+  replay?: Replay | null;
 }
 
 export type LocalTiles =

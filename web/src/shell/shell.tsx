@@ -4,6 +4,7 @@ import { MapPanel } from "../map/map_panel";
 import { FirstRun } from "../panels/first_run";
 import { LinkBanner } from "../panels/link_banner";
 import { ModeCards } from "../panels/mode_cards";
+import { ReplayBanner } from "../panels/replay_banner";
 import { Dock, Drawer, Rail, SideColumn } from "./docks";
 import { Help } from "./help";
 import type { PanelProps } from "./panel_props";
@@ -20,6 +21,7 @@ export function Shell({ station }: PanelProps) {
   return (
     <main class={stale ? "app stale" : "app"}>
       <TopBar station={station} />
+      <ReplayBanner live_url={null} />
       <Rail />
       <Drawer station={station} />
       <div class="middle">

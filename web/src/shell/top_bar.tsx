@@ -2,6 +2,7 @@ import { RecordingPill } from "../recording/recording_pill";
 import { ControlPill } from "../control/control_pill";
 import { AlarmBadges } from "../alarms/alarm_badges";
 import { HoldControl } from "../formation/hold_control";
+import { replay } from "../state/replay";
 import type { Store } from "../state/store";
 import { Brand } from "../panels/icons";
 import { clock, kNone, utc } from "../units/format";
@@ -85,5 +86,6 @@ function connectionWord(store: Store, now_ms: number): ["live" | "waiting" | "go
     ];
   if (store.busSilence_s(now_ms) !== null) return ["gone", "Bus silent"];
   if (store.fleet.motion === null) return ["waiting", "No fleet yet"];
-  return store.silent_nodes.value.length > 0 ? ["gone", "Part of the bus silent"] : ["live", "Live"];
+  if (store.silent_nodes.value.length > 0) return ["gone", "Part of the bus silent"];
+  return ["live", replay.value === null ? "Live" : "Replay"];
 }

@@ -17,6 +17,7 @@ import type {
 } from "../link/messages";
 import type { ControlMessage } from "../control/people";
 import { Fleet } from "./fleet";
+import { replay } from "./replay";
 
 const kMostEvents = 1000;
 /** The bridge sends motion at 5 Hz or more while the bus lives. */
@@ -167,6 +168,7 @@ export class Store {
   private startOver(hello: Hello): void {
     this.hello.value = hello;
     this.hello_ms = performance.now();
+    replay.value = hello.replay ?? null;
     this.formations.value = new Map();
     this.paths.value = new Map();
     this.statuses.value = new Map();
