@@ -22,12 +22,10 @@ const char* Obeys(const std::string& channel) {
 
 }  // namespace
 
-CommandGateway::CommandGateway(bus::Bus& bus) : bus_(bus) {
-  bus_.Subscribe<ack_t>(bus::channel::kAck, [this](const ack_t& ack) { Hear(ack); });
-}
+CommandGateway::CommandGateway(bus::Bus& bus) : bus_(bus), outbox_(bus) {}
 
 void CommandGateway::Send(const std::string& channel, const nlohmann::json& body, Done done) {
-  if (waiting_.size() >= kMaxWaiting) {
+  if (outbox_.waiting() >= kMaxWaiting) {
     done({Outcome::kBusy, "too many commands wait for an answer: try again in 2 s"});
     return;
   }
@@ -65,40 +63,17 @@ void CommandGateway::Publish(const std::string& channel, Command command, Done d
     done({Outcome::kMalformed, channel + ": holds a text that is too long or has control characters"});
     return;
   }
-  const std::int64_t request_id = ++last_request_id_;
-  command.session_id = bus_.session_id();
-  command.request_id = request_id;
-  const auto publish = [this, channel, command = std::move(command)]() mutable {
-    command.utime = bus_.executor().Now();
-    bus_.Publish(channel, command);
-  };
+  const std::int64_t request_id =
+      outbox_.Send(channel, std::move(command), [done](const bus::Answer& answer) {
+        done({answer.accepted ? Outcome::kAccepted : Outcome::kRefused, answer.reason});
+      });
   const bus::Utime now = bus_.executor().Now();
-  waiting_.emplace(request_id, Waiting{channel, publish, std::move(done)});
-  bus_.executor().At(now + kResendAfter, [this, request_id] {
-    const auto entry = waiting_.find(request_id);
-    if (entry != waiting_.end()) entry->second.publish();
+  bus_.executor().At(now + kResendAfter, [this, request_id] { outbox_.Repeat(request_id); });
+  bus_.executor().At(now + kGiveUpAfter, [this, request_id, channel, done = std::move(done)] {
+    if (!outbox_.Forget(request_id)) return;
+    done({Outcome::kNoAnswer,
+          "nobody answered " + channel + " within 2 s: is " + Obeys(channel) + " running?"});
   });
-  bus_.executor().At(now + kGiveUpAfter, [this, request_id, channel] {
-    Finish(request_id, {Outcome::kNoAnswer,
-                        "nobody answered " + channel + " within 2 s: is " + Obeys(channel) + " running?"});
-  });
-  waiting_.at(request_id).publish();
-}
-
-void CommandGateway::Hear(const ack_t& ack) {
-  if (ack.command_session_id != bus_.session_id()) return;
-  const auto entry = waiting_.find(ack.command_request_id);
-  if (entry == waiting_.end() || entry->second.channel != ack.command_channel) return;
-  Finish(ack.command_request_id, {ack.accepted ? Outcome::kAccepted : Outcome::kRefused, ack.reason});
-}
-
-void CommandGateway::Finish(std::int64_t request_id, const CommandResult& result) {
-  const auto entry = waiting_.find(request_id);
-  if (entry == waiting_.end()) return;
-  // Out of the table first: `done` may send the next command.
-  const Done done = std::move(entry->second.done);
-  waiting_.erase(entry);
-  done(result);
 }
 
 }  // namespace skein::bridge

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <map>
 #include <nlohmann/json_fwd.hpp>
-#include <skein/ack_t.hpp>
 #include <string>
 
 #include "bus/bus.h"
+#include "bus/command_outbox.h"
 
 namespace skein::bridge {
 
@@ -37,20 +35,11 @@ class CommandGateway {
   static constexpr std::size_t kMaxWaiting = 64;
 
  private:
-  struct Waiting {
-    std::string channel;
-    std::function<void()> publish;
-    Done done;
-  };
-
   template <typename Command>
   void Publish(const std::string& channel, Command command, Done done);
-  void Hear(const ack_t& ack);
-  void Finish(std::int64_t request_id, const CommandResult& result);
 
   bus::Bus& bus_;
-  std::int64_t last_request_id_ = 0;
-  std::map<std::int64_t, Waiting> waiting_;
+  bus::CommandOutbox outbox_;
 };
 
 }  // namespace skein::bridge

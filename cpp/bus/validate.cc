@@ -156,7 +156,8 @@ bool ValidItems(const Items& items) {
 
 template <typename Command>
 bool ValidRequest(const Command& command) {
-  return Time(command.utime) && Sequence(command.session_id) && Sequence(command.request_id);
+  return Time(command.utime) && Sequence(command.session_id) && Sequence(command.request_id) &&
+         Sequence(command.to_session_id);
 }
 
 /// So much of a formation that nothing breaks.
@@ -177,7 +178,7 @@ bool ValidShape(std::string_view shape) {
 
 bool Valid(const ack_t& ack) {
   return Time(ack.utime) && Sequence(ack.command_session_id) && Sequence(ack.command_request_id) &&
-         Name(ack.node) && Name(ack.command_channel) && Text(ack.reason);
+         Name(ack.node) && Sequence(ack.session_id) && Name(ack.command_channel) && Text(ack.reason);
 }
 
 bool Valid(const alarm_command_t& command) {

@@ -22,7 +22,7 @@ std::string OperatorName() {
   return user && *user ? std::string("skein, ") + user : "skein";
 }
 
-Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)) {
+Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)), outbox_(bus) {
   bus::SubscribeChunks<fleet_roster_t>(bus, channel::kFleetRoster,
                                        [this](const fleet_roster_t& roster, int missing) {
                                          if (missing == 0) picture_.roster = roster;
@@ -47,10 +47,6 @@ Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)) {
                         [this](const path_t& path) { picture_.paths[path.formation_id] = path; });
   bus.Subscribe<recording_status_t>(
       channel::kRecording, [this](const recording_status_t& status) { picture_.recording = status; });
-  bus.Subscribe<ack_t>(channel::kAck, [this](const ack_t& ack) {
-    if (ack.command_session_id != bus_.session_id()) return;
-    answers_[{ack.command_channel, ack.command_request_id}] = {ack.accepted != 0, ack.reason};
-  });
 }
 
 bool Station::WaitUntil(const std::function<bool()>& seen, bus::Utime limit) {
@@ -69,18 +65,15 @@ const fleet_roster_t& Station::Roster() {
 }
 
 std::string Station::WaitForAnswer(const std::string& channel, std::int64_t request_id,
-                                   const std::string& who, const std::function<void()>& send) {
-  const auto answer = [&] { return answers_.find({channel, request_id}); };
-  bool answered = false;
-  for (int tries = 0; tries < kTries && !answered; ++tries) {
-    send();
-    answered = WaitUntil([&] { return answer() != answers_.end(); }, kRepeat);
-  }
-  if (!answered) {
+                                   const std::string& who) {
+  const auto answered = [this] { return answer_.has_value(); };
+  for (int tries = 1; !WaitUntil(answered, kRepeat) && tries < kTries; ++tries) outbox_.Repeat(request_id);
+  if (!answered()) {
+    outbox_.Forget(request_id);
     throw Failure("nobody answered " + channel + " for 3 s: is " + who + " running, and on this LCM URL?");
   }
-  if (!answer()->second.accepted) throw Failure("refused: " + answer()->second.reason);
-  return answer()->second.reason;
+  if (!answer_->accepted) throw Failure("refused: " + answer_->reason);
+  return answer_->reason;
 }
 
 }  // namespace skein::cli

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "bus/bus.h"
+#include "bus/command_outbox.h"
 
 namespace skein::cli {
 
@@ -65,31 +66,23 @@ class Station {
   /// Throws Failure when no roster comes within its period and a margin.
   const fleet_roster_t& Roster();
 
-  /// Sends a command until it is answered; again after one and two seconds, with the same request_id, for a
-  /// message may get lost. Returns the remark. Throws Failure when it is refused, or not answered within 3 s
-  /// (`who` should have).
+  /// Sends a command until it is answered; again after one and two seconds, for a message may get lost.
+  /// Returns the remark. Throws Failure when it is refused, or not answered within 3 s (`who` should have).
   template <typename Command>
   std::string Ask(const std::string& channel, Command command, const std::string& who) {
-    command.utime = bus_.executor().Now();
-    command.session_id = bus_.session_id();
-    command.request_id = ++last_request_id_;
-    return WaitForAnswer(channel, command.request_id, who, [&] { bus_.Publish(channel, command); });
+    answer_.reset();
+    const auto keep = [this](const bus::Answer& answer) { answer_ = answer; };
+    return WaitForAnswer(channel, outbox_.Send(channel, std::move(command), keep), who);
   }
 
  private:
-  struct Answer {
-    bool accepted;
-    std::string reason;
-  };
-
-  std::string WaitForAnswer(const std::string& channel, std::int64_t request_id, const std::string& who,
-                            const std::function<void()>& send);
+  std::string WaitForAnswer(const std::string& channel, std::int64_t request_id, const std::string& who);
 
   bus::Bus& bus_;
   Run run_;
   Picture picture_;
-  std::int64_t last_request_id_ = 0;
-  std::map<std::pair<std::string, std::int64_t>, Answer> answers_;  ///< by channel and request_id
+  bus::CommandOutbox outbox_;
+  std::optional<bus::Answer> answer_;  ///< to the last command
 };
 
 }  // namespace skein::cli

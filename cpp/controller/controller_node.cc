@@ -84,6 +84,7 @@ void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
     for (auto& [id, view] : fleet_) view.TakeClock(state.utime);
     for (auto& [id, flight] : flights_) flight.TakeClock(state.utime);
   }
+  fleet_session_id_ = state.session_id;
   tick_utime_ = state.utime;
   tick_ = state.tick;
   for (auto& [id, view] : fleet_) view.fresh = false;
@@ -128,6 +129,7 @@ void FormationControllerNode::SendCommands(const std::vector<FlightCommand>& com
   fleet_command_t whole;
   whole.utime = tick_utime_;
   whole.session_id = bus_.session_id();
+  whole.to_session_id = fleet_session_id_;
   whole.state_tick = tick_;
   whole.commands.reserve(commands.size());
   for (const FlightCommand& from : commands) {

@@ -81,8 +81,9 @@ class FormationControllerNode {
 
   FleetPicture fleet_;
   std::map<int, FormationFlight> flights_;
-  std::map<int, VehicleState> held_;  ///< UAVs that are in no formation, and what they hold
-  bus::Utime start_utime_ = 0;        ///< t = 0 of the scenario; 0: no roster yet
+  std::map<int, VehicleState> held_;   ///< UAVs that are in no formation, and what they hold
+  bus::Utime start_utime_ = 0;         ///< t = 0 of the scenario; 0: no roster yet
+  std::int64_t fleet_session_id_ = 0;  ///< of FLEET_STATE
   bus::Utime tick_utime_ = 0;
   std::int64_t tick_ = 0;
   std::int64_t ticks_heard_ = 0;

@@ -100,6 +100,7 @@ class FlightAhead {
     command.utime = tick_->utime;
     command.session_id = experiment_.operator_bus().session_id();
     command.request_id = 1;
+    command.to_session_id = command.session_id;  // the nodes of an experiment start at the same moment
     start_s_ = tick_->t_s;
     experiment_.operator_bus().Publish(channel, command);
     Step();

@@ -143,6 +143,7 @@ void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_
 }
 
 void CollisionMonitorNode::HearState(const fleet_state_t& state) {
+  fleet_session_id_ = state.session_id;
   const Utime now = bus_.executor().Now();
   link_alarms_.HearFleet(now);
   std::vector<Notice> notices;
@@ -159,6 +160,8 @@ void CollisionMonitorNode::HearState(const fleet_state_t& state) {
 }
 
 void CollisionMonitorNode::HearCommands(const fleet_command_t& commands) {
+  // Commands to another fleet, out of a recording perhaps, are no proof of how this one's uplinks are.
+  if (commands.to_session_id != fleet_session_id_) return;
   const Utime now = bus_.executor().Now();
   membership_.HearCommands(now);
   for (const vehicle_command_t& command : commands.commands) {

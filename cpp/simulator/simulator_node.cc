@@ -158,8 +158,9 @@ void FleetSimulatorNode::PublishState() {
 }
 
 void FleetSimulatorNode::Command(const fleet_command_t& command) {
-  // Who answers a tick that is still to come means the flight before this one.
-  if (command.state_tick > tick()) return;
+  // Meant for the flight before this one, or out of the recording of another: however new the session of its
+  // controller is, it must not take over.
+  if (command.to_session_id != start_utime()) return;
   if (command.session_id == command_session_id_ && command.request_id > command_request_id_ + 1) {
     bus_.CountGaps(command.request_id - command_request_id_ - 1);
   }

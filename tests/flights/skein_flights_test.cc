@@ -90,6 +90,7 @@ TEST(SkeinTurn, TakesPathsOverTheBusInMidTurnWithoutAJump) {
         command.utime = operator_bus.executor().Now();
         command.session_id = operator_bus.session_id();
         command.request_id = 1;
+        command.to_session_id = operator_bus.session_id();
         command.formation_id = 1;
         command.closed = upload.closed;
         for (const Waypoint& from : upload.waypoints) {

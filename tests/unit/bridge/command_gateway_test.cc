@@ -99,6 +99,7 @@ TEST_F(CommandGatewayTest, TakesOnlyTheAnswerToItsOwnCommand) {
   ack_t ack{};
   ack.node = "fleet-simulator";
   ack.accepted = true;
+  ack.session_id = heard_[0].to_session_id;
   ack.command_channel = "CMD_LINK";
   ack.command_session_id = heard_[0].session_id + 1;
   ack.command_request_id = heard_[0].request_id;

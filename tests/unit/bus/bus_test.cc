@@ -7,6 +7,7 @@
 
 #include "bus/channels.h"
 #include "bus/command_inbox.h"
+#include "bus/command_outbox.h"
 #include "bus/events.h"
 #include "bus/heartbeat.h"
 #include "bus/simulated_executor.h"
@@ -27,6 +28,7 @@ class BusTest : public testing::Test {
     command.utime = executor_.Now();
     command.session_id = station_.session_id();
     command.request_id = request_id;
+    command.to_session_id = node_.session_id();
     command.vehicle_id = 3;
     return command;
   }
@@ -168,7 +170,7 @@ TEST_F(CommandInboxTest, RefusesAnOlderRequestThatItNeverSaw) {
   EXPECT_EQ(done_, (std::vector<std::int64_t>{5}));
   ASSERT_EQ(acks_.size(), 2U);
   EXPECT_FALSE(acks_[1].accepted);
-  EXPECT_EQ(acks_[1].reason, "request 4 is older than request 5, which was obeyed");
+  EXPECT_EQ(acks_[1].reason, "request 4 is not newer than request 5, which was obeyed");
 }
 
 TEST_F(CommandInboxTest, KeepsSendersApart) {
@@ -177,6 +179,102 @@ TEST_F(CommandInboxTest, KeepsSendersApart) {
   command.session_id = 7;
   Send(command);
   EXPECT_EQ(done_, (std::vector<std::int64_t>{5, 1}));
+}
+
+TEST_F(CommandInboxTest, RefusesWhatWasMeantForAnotherRunAndTellsItsAddress) {
+  auto command = LinkCommand(1);
+  for (const std::int64_t other : {std::int64_t{0}, node_.session_id() - 1, node_.session_id() + 1}) {
+    command.to_session_id = other;
+    Send(command);
+    EXPECT_FALSE(acks_.back().accepted);
+    EXPECT_EQ(acks_.back().reason, "meant for another run of node: send it again");
+    EXPECT_EQ(acks_.back().session_id, node_.session_id());
+  }
+  EXPECT_TRUE(done_.empty());
+  Send(LinkCommand(1));
+  EXPECT_TRUE(acks_.back().accepted);
+  EXPECT_EQ(done_, (std::vector<std::int64_t>{1}));
+}
+
+TEST_F(CommandInboxTest, DoesNotDoAgainWhatManySendersAgoItObeyed) {
+  const auto first = LinkCommand(1);
+  Send(first);
+  auto command = LinkCommand(1);
+  for (int i = 0; i < 1000; ++i) {
+    ++command.session_id;
+    Send(command);
+  }
+  Send(first);
+  EXPECT_EQ(done_.size(), 1001U);
+  EXPECT_FALSE(acks_.back().accepted);
+}
+
+class CommandOutboxTest : public BusTest {
+ protected:
+  void SetUp() override {
+    station_.Subscribe<link_command_t>(channel::kCmdLink,
+                                       [this](const link_command_t& command) { heard_.push_back(command); });
+  }
+
+  /// A node, or the next run of it.
+  void StartNode() {
+    inbox_.reset();
+    other_.reset();
+    executor_.RunFor(kSecond);
+    other_ = std::make_unique<Bus>(transport_, "node", executor_);
+    inbox_ = std::make_unique<CommandInbox>(*other_);
+    inbox_->Obey<link_command_t>(channel::kCmdLink, [this](const link_command_t&) {
+      ++done_;
+      return Answer::Accepted();
+    });
+  }
+
+  void Send(CommandOutbox& outbox) {
+    answer_.reset();
+    outbox.Send(channel::kCmdLink, LinkCommand(0), [this](const Answer& answer) { answer_ = answer; });
+    executor_.Deliver();
+  }
+
+  std::unique_ptr<Bus> other_;
+  std::unique_ptr<CommandInbox> inbox_;
+  std::vector<link_command_t> heard_;
+  std::optional<Answer> answer_;
+  int done_ = 0;
+};
+
+TEST_F(CommandOutboxTest, FindsTheAddressOfANodeAndOfItsNextRunAtOnce) {
+  CommandOutbox outbox(station_);
+  for (int run = 1; run <= 2; ++run) {
+    StartNode();
+    Send(outbox);
+    ASSERT_TRUE(answer_) << "run " << run;
+    EXPECT_TRUE(answer_->accepted) << answer_->reason;
+    EXPECT_EQ(done_, 2 * run - 1);
+    EXPECT_EQ(heard_.back().to_session_id, other_->session_id());
+    heard_.clear();
+    Send(outbox);
+    EXPECT_EQ(heard_.size(), 1U) << "the address is known now";
+    EXPECT_EQ(done_, 2 * run);
+  }
+}
+
+TEST_F(CommandOutboxTest, SendsToAnotherAddressOnlyOnce) {
+  CommandOutbox outbox(station_);
+  Send(outbox);
+  ASSERT_EQ(heard_.size(), 1U);
+  ack_t ack;
+  ack.node = "node";
+  ack.command_channel = channel::kCmdLink;
+  ack.command_session_id = station_.session_id();
+  ack.command_request_id = heard_[0].request_id;
+  for (ack.session_id = 5; ack.session_id < 9; ++ack.session_id) {
+    node_.Publish(channel::kAck, ack);
+    executor_.Deliver();
+  }
+  ASSERT_EQ(heard_.size(), 2U);
+  EXPECT_EQ(heard_[1].to_session_id, 5);
+  EXPECT_FALSE(answer_);
+  EXPECT_TRUE(outbox.Forget(heard_[0].request_id));
 }
 
 }  // namespace

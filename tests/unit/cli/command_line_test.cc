@@ -192,6 +192,7 @@ TEST_F(CommandLineTest, SendsARequestAgainUntilItIsAnswered) {
     ack_t ack;
     ack.node = "fleet-simulator";
     ack.command_channel = channel::kCmdLink;
+    ack.session_id = command.to_session_id;
     ack.command_session_id = command.session_id;
     ack.command_request_id = command.request_id;
     ack.accepted = 1;
@@ -206,6 +207,7 @@ TEST_F(CommandLineTest, DoesNotTakeAnAnswerToSomebodyElse) {
     ack_t ack;
     ack.node = "fleet-simulator";
     ack.command_channel = channel::kCmdLink;
+    ack.session_id = command.to_session_id;
     ack.command_session_id = command.session_id + 1;
     ack.command_request_id = command.request_id;
     ack.accepted = 1;

@@ -110,6 +110,7 @@ class ControllerNodeTest : public testing::Test {
     command.utime = executor_.Now();
     command.session_id = 77;
     command.request_id = ++request_id_;
+    command.to_session_id = bus_.session_id();
     command.action = action;
     command.formation = formation_;
     return command;
@@ -310,6 +311,7 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   path.utime = executor_.Now();
   path.session_id = 77;
   path.request_id = ++request_id_;
+  path.to_session_id = bus_.session_id();
   path.formation_id = 1;
   for (const Waypoint& waypoint : std::vector<Waypoint>{{0, 6000, 1000, 50}, {9000, 9000, 1000, 50}}) {
     path.waypoints.push_back(bus::ToMessage(waypoint));

@@ -65,6 +65,7 @@ TEST(Experiment, LetsAnOperatorSendCommands) {
       command.utime = bus.executor().Now();
       command.session_id = bus.session_id();
       command.request_id = 1;
+      command.to_session_id = bus.session_id();
       command.vehicle_id = 2;
       command.downlink = 1;
       command.mode = link_command_t::MODE_SILENT;

@@ -44,6 +44,7 @@ class MonitorAlarms : public testing::MonitorTest {
   alarm_command_t Command(std::int8_t action) const {
     alarm_command_t command;
     command.session_id = 7;
+    command.to_session_id = lists_.back().session_id;
     command.action = action;
     command.operator_name = "Ann";
     command.alarm_session_id = lists_.back().session_id;

@@ -49,6 +49,8 @@ class FakeFleet {
   bool commands = true;
   bool telemetry = true;
 
+  static constexpr std::int64_t kSession = 1;
+
   /// Adds a UAV that flies along a course.
   FakeUav& Add(int id, double east_m, double north_m, double up_m, double speed_m_s = 50,
                double course_rad = 0) {
@@ -73,7 +75,7 @@ class FakeFleet {
     if (telemetry) {
       fleet_state_t states;
       states.utime = now;
-      states.session_id = 1;
+      states.session_id = kSession;
       states.tick = ++tick_;
       for (auto& [id, uav] : uavs) {
         if (!uav.downlink) continue;
@@ -97,6 +99,7 @@ class FakeFleet {
     fleet_command_t command;
     command.utime = now;
     command.session_id = 9;
+    command.to_session_id = kSession;
     command.request_id = command.state_tick = tick_;
     for (auto& [id, uav] : uavs) {
       vehicle_command_t& one = command.commands.emplace_back();
@@ -111,7 +114,7 @@ class FakeFleet {
   void Repeat(bus::Utime now) {
     fleet_roster_t roster;
     roster.utime = now;
-    roster.session_id = 1;
+    roster.session_id = kSession;
     roster.scenario = scenario;
     roster.start_utime = start_utime == 0 ? start_ : start_utime;
     for (const auto& [id, uav] : uavs) {

@@ -71,6 +71,23 @@ TEST_F(MonitorLinks, LossIsToldOnceWithinFiveSecondsAndReturnOnce) {
   EXPECT_EQ(heard_.Link(3)->uplink, kUp);
 }
 
+TEST_F(MonitorLinks, AreNotJudgedByCommandsToAnotherFleet) {
+  Start();
+  Run(10);
+  // A recording of a later controller, played on this bus: no UAV here ever obeys it.
+  executor_.Every(50'000, [this] {
+    fleet_command_t command;
+    command.utime = executor_.Now();
+    command.session_id = 1000;
+    command.to_session_id = testing::FakeFleet::kSession + 1;
+    for (const int id : {1, 2, 3}) command.commands.emplace_back().id = id;
+    bus::PublishChunks(station_, bus::channel::kCmdFleet, command);
+  });
+  Run(20);
+  EXPECT_TRUE(heard_.events.empty());
+  for (const int id : {1, 2, 3}) EXPECT_EQ(heard_.Link(id)->uplink, kUp);
+}
+
 TEST_F(MonitorLinks, UplinkThatReturnsATickLaterIsPartOfOneReturn) {
   Start();
   Run(15);

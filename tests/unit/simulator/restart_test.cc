@@ -60,6 +60,7 @@ class RestartTest : public testing::Test {
     command.utime = executor_.Now();
     command.session_id = 1;
     command.request_id = ++requests_;
+    command.to_session_id = simulator_.session_id();
     command.action = action;
     command.scenario = scenario;
     return command;
@@ -148,6 +149,7 @@ TEST_F(RestartTest, TakesNoCommandThatAnswersTheFlightBefore) {
   command.utime = executor_.Now();
   command.session_id = 1;
   command.request_id = 1;
+  command.to_session_id = state_.session_id;
   command.state_tick = state_.tick;
   command.chunk_count = 1;
   vehicle_command_t one{};
@@ -161,7 +163,7 @@ TEST_F(RestartTest, TakesNoCommandThatAnswersTheFlightBefore) {
   station_.Publish(channel::kCmdFleet, command);
   Run(5);
   EXPECT_EQ(state_.vehicles[0].command_sequence, 0);
-  command.state_tick = state_.tick;
+  command.to_session_id = state_.session_id;
   station_.Publish(channel::kCmdFleet, command);
   Run(0.2);
   EXPECT_EQ(state_.vehicles[0].command_sequence, 1);

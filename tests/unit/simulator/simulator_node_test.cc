@@ -59,11 +59,14 @@ class SimulatorTest : public testing::Test {
   /// Runs until a time of the scenario, that moment included.
   void RunUntil(double t_s) { executor_.RunUntil(SimulatedExecutor::kStart + bus::ToUtime(t_s)); }
 
-  void SendCommand(int vehicle_id, std::int64_t sequence, double speed_m_s, std::int64_t session_id = 1) {
+  /// @param to_session_id 0: this flight's.
+  void SendCommand(int vehicle_id, std::int64_t sequence, double speed_m_s, std::int64_t session_id = 1,
+                   std::int64_t to_session_id = 0) {
     fleet_command_t command;
     command.utime = executor_.Now();
     command.session_id = session_id;
     command.request_id = sequence;
+    command.to_session_id = to_session_id > 0 ? to_session_id : node_->start_utime();
     command.chunk = 0;
     command.chunk_count = 1;
     vehicle_command_t one{};
@@ -82,6 +85,7 @@ class SimulatorTest : public testing::Test {
     command.utime = executor_.Now();
     command.session_id = 1;
     command.request_id = ++link_requests_;
+    command.to_session_id = simulator_.session_id();
     command.vehicle_id = vehicle_id;
     command.uplink = command.downlink = true;
     command.mode = link_command_t::MODE_SILENT;
@@ -101,6 +105,7 @@ class SimulatorTest : public testing::Test {
     command.utime = executor_.Now();
     command.session_id = 1;
     command.request_id = ++payload_requests_;
+    command.to_session_id = simulator_.session_id();
     command.on = on;
     command.vehicle_ids.assign(ids.begin(), ids.end());
     command.num_vehicle_ids = static_cast<int>(ids.size());
@@ -217,6 +222,25 @@ TEST_F(SimulatorTest, IgnoresCommandsForUavsThatItDoesNotHave) {
   SendCommand(7, 1, 60);
   RunUntil(1);
   EXPECT_EQ(node_->fleet()[0].input().speed_m_s, 50);
+}
+
+TEST_F(SimulatorTest, ObeysNoControllerOfAnotherFlightHoweverLateItsSession) {
+  Start(ScenarioOf(1));
+  SendCommand(1, 5, 60, 100);
+  RunUntil(1);
+  // Out of recordings: of an earlier flight, of a later one, and of this one.
+  SendCommand(1, 900, 80, 50, node_->start_utime() - 1);
+  SendCommand(1, 900, 80, 200, node_->start_utime() + 1);
+  SendCommand(1, 4, 80, 100);
+  SendCommand(1, 900, 80, 50);
+  RunUntil(2);
+  EXPECT_EQ(node_->fleet()[0].input().speed_m_s, 60);
+  EXPECT_EQ(states_.back().vehicles[0].command_session_id, 100);
+  // Its own controller still has the UAV.
+  SendCommand(1, 6, 65, 100);
+  RunUntil(2.1);
+  EXPECT_EQ(node_->fleet()[0].input().speed_m_s, 65);
+  EXPECT_EQ(simulator_.statistics().gaps, 0);
 }
 
 TEST_F(SimulatorTest, CountsCommandsThatNeverCame) {

@@ -32,6 +32,7 @@ Command Request() {
   command.utime = 1'700'000'000'000'000;
   command.session_id = 1'699'000'000'000'000;
   command.request_id = 1;
+  command.to_session_id = 1'699'500'000'000'000;
   return command;
 }
 
