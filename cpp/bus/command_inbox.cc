@@ -36,6 +36,8 @@ Answer CommandInbox::ForAnotherRun() const {
 }
 
 void CommandInbox::Remember(const Request& request, const Answer& answer) {
+  // Not of those who only ask for the address of this run.
+  if (!answer.accepted && bus_.logs()) spdlog::info("{} refused: {}", request.channel, answer.reason);
   const SessionKey key{request.channel, request.session_id};
   Session& session = sessions_[key];
   session.answers.emplace_back(request.request_id, answer);
@@ -62,7 +64,6 @@ void CommandInbox::Acknowledge(const Request& request, const Answer& answer) {
   ack.accepted = answer.accepted;
   ack.reason = answer.reason;
   bus_.Publish(channel::kAck, ack);
-  if (!answer.accepted && bus_.logs()) spdlog::info("{} refused: {}", request.channel, answer.reason);
 }
 
 }  // namespace skein::bus

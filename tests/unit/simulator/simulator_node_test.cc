@@ -227,18 +227,18 @@ TEST_F(SimulatorTest, IgnoresCommandsForUavsThatItDoesNotHave) {
 TEST_F(SimulatorTest, ObeysNoControllerOfAnotherFlightHoweverLateItsSession) {
   Start(ScenarioOf(1));
   SendCommand(1, 5, 60, 100);
-  RunUntil(1);
+  RunUntil(0.3);
   // Out of recordings: of an earlier flight, of a later one, and of this one.
   SendCommand(1, 900, 80, 50, node_->start_utime() - 1);
   SendCommand(1, 900, 80, 200, node_->start_utime() + 1);
   SendCommand(1, 4, 80, 100);
   SendCommand(1, 900, 80, 50);
-  RunUntil(2);
+  RunUntil(0.6);
   EXPECT_EQ(node_->fleet()[0].input().speed_m_s, 60);
   EXPECT_EQ(states_.back().vehicles[0].command_session_id, 100);
   // Its own controller still has the UAV.
   SendCommand(1, 6, 65, 100);
-  RunUntil(2.1);
+  RunUntil(0.7);
   EXPECT_EQ(node_->fleet()[0].input().speed_m_s, 65);
   EXPECT_EQ(simulator_.statistics().gaps, 0);
 }
