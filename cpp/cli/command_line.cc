@@ -39,6 +39,7 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   AddAlarms();
   AddRecord();
   log_.Add(app_, [this](LogCommandLine::Command command) { offline_command_ = std::move(command); });
+  AddSpy();
 }
 
 void CommandLine::AddLink() {
@@ -203,6 +204,24 @@ void CommandLine::AddRecord() {
   add("status", "Whether the flight is recorded, and where", [this](Station& station, std::ostream& out) {
     ShowRecording(station, json_, out);
   })->add_flag("--json", json_, "As JSON");
+}
+
+void CommandLine::AddSpy() {
+  CLI::App* spy = app_.add_subcommand(
+      "spy",
+      "What goes on on the bus: every channel's rate, bandwidth, losses; or one channel, field by field");
+  auto* channel =
+      spy->add_option("channel", spy_.channel, "Show the messages of this channel (default: a table of all)");
+  spy->add_option("--where", spy_.where,
+                  "FIELD=VALUE: only such messages, as formation_id=2 (default: chunk=0 where messages come "
+                  "in chunks)")
+      ->needs(channel);
+  spy->add_option("--for", spy_.for_s, "End after so many seconds (default: Ctrl-C ends it)")
+      ->check(CLI::PositiveNumber);
+  spy->add_flag("--once", spy_.once, "One table after 2.5 s (or --for), or the next message, and end");
+  spy->add_flag("--json", spy_.json, "As JSON, a line for each table or message");
+  spy->callback(
+      [this] { command_ = [this](Station& station, std::ostream& out) { Spy(station, spy_, out); }; });
 }
 
 }  // namespace skein::cli

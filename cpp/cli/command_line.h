@@ -8,6 +8,7 @@
 #include "cli/alarms.h"
 #include "cli/commands.h"
 #include "cli/log/log_command_line.h"
+#include "cli/spy.h"
 
 namespace skein::cli {
 
@@ -33,6 +34,7 @@ class CommandLine {
   void AddStatus();
   void AddAlarms();
   void AddRecord();
+  void AddSpy();
 
   CLI::App app_;
   std::string lcm_url_;
@@ -43,6 +45,7 @@ class CommandLine {
   PathOptions path_;
   StatusOptions status_;
   AlarmsOptions alarms_;
+  SpyOptions spy_;
   std::vector<std::string> alarm_ids_;
   double shelve_s_ = 60;
   std::vector<std::string> vehicles_;
