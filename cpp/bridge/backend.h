@@ -18,6 +18,8 @@ struct Backend {
   template <typename Result>
   using Reply = std::function<void(const Result&)>;
 
+  /// Why nobody may command or fly changes ahead, whoever he is; "": they may.
+  std::string why_no_command;
   /// hello and the last of everything, for a browser that has just come.
   std::function<void(Reply<std::vector<LiveFrame>>)> snapshot;
   /// The JSON of GET /api/state and of GET /api/vehicles.

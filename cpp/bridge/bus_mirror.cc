@@ -238,7 +238,8 @@ Json BusMirror::Hello() const {
           {"utime", Now()},
           {"tile_url", hello_.tile_url.empty() ? Json() : Json(hello_.tile_url)},
           {"tile_attribution", hello_.tile_attribution},
-          {"tiles", hello_.tiles}};
+          {"tiles", hello_.tiles},
+          {"replay", hello_.replay}};
 }
 
 Json BusMirror::Silent() const { return {{"type", "bus"}, {"nodes_silent", silent_}}; }

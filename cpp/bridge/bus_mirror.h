@@ -26,7 +26,8 @@ struct HelloInfo {
   std::string lcm_url;
   std::string tile_url;  ///< "": none
   std::string tile_attribution;
-  Json tiles = nullptr;  ///< the operator's own map (MapTiles::Description), null: none
+  Json tiles = nullptr;   ///< the operator's own map (MapTiles::Description), null: none
+  Json replay = nullptr;  ///< {kind, name} when this is no live flight (README.md)
 };
 
 /// Hears everything on the bus, holds the last of each, and says what has changed as frames for the browsers

@@ -235,6 +235,8 @@ void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResp
   const auto finish = [this, respond](const CommandResult& result) {
     respond(Make(StatusOf(result.outcome), kJson, ResultJson(result)));
   };
+  if (!backend_.why_no_command.empty())
+    return finish({CommandResult::Outcome::kRefused, backend_.why_no_command});
   auto command = nlohmann::json::parse(request.body(), nullptr, false);
   const auto refuse = [&](const char* reason) { finish({CommandResult::Outcome::kMalformed, reason}); };
   if (!command.is_object()) return refuse("the request is no JSON object");
@@ -247,9 +249,10 @@ void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResp
 
 void HttpRouter::Preview(const HttpRequest& request, const Previewer::Gone& gone,
                          std::function<void(HttpResponse)> respond) const {
-  const auto refuse = [&](status status, const char* reason) {
+  const auto refuse = [&](status status, const std::string& reason) {
     respond(Make(status, kJson, nlohmann::json{{"ok", false}, {"reason", reason}}.dump()));
   };
+  if (!backend_.why_no_command.empty()) return refuse(status::conflict, backend_.why_no_command);
   const auto body = nlohmann::json::parse(request.body(), nullptr, false);
   if (!body.is_object()) return refuse(status::bad_request, "the request is no JSON object");
   PreviewRequest wanted;

@@ -137,10 +137,12 @@ CommandResult LiveHub::Control(const std::shared_ptr<LiveSession>& session, cons
   try {
     const config::Object object(config::Value::FromJson(message, "control"),
                                 {"type", "id", "action", "name", "token", "page", "take", "person"});
+    const bool nobody_commands = !backend_.why_no_command.empty();
     if (object.At("action").Text() == "join") {
-      Introduce(session, ParseIntroduction(object, session->rights));
+      Introduce(session, ParseIntroduction(object, {session->rights.operate && !nobody_commands}));
       return {};
     }
+    if (nobody_commands) return {CommandResult::Outcome::kRefused, backend_.why_no_command};
     const ControlRequest request = ParseControl(object);
     if (session->person == 0) object.At("action").Refuse("join comes first");
     const bus::Answer answer = desk_.Ask(session->person, request, Now());
@@ -163,6 +165,7 @@ void LiveHub::Command(const std::shared_ptr<LiveSession>& session, json message)
   if (!message.contains("body")) return refuse(Outcome::kMalformed, "body: is missing");
   if (message.size() != 4)
     return refuse(Outcome::kMalformed, "only type, id, channel and body belong in a command");
+  if (!backend_.why_no_command.empty()) return refuse(Outcome::kRefused, backend_.why_no_command);
   // Who commands without a word of introduction is a program, most likely alone.
   if (session->person == 0) Introduce(session, {.may_operate = session->rights.operate});
   if (const std::string why_not = desk_.WhyNot(session->person); !why_not.empty()) {

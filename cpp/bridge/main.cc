@@ -40,6 +40,17 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingPath);
   node.app().add_option("--tile-attribution", options.hello.tile_attribution,
                         "What the map must say of its tiles");
+  std::string replay;
+  double replay_speed = 1;
+  auto* replay_option = node.app().add_option("--replay", replay,
+                                              "Name of a recording that lcm-logplayer plays on this bus: the "
+                                              "page says so, and nothing can be commanded");
+  node.app()
+      .add_option("--replay-speed", replay_speed,
+                  "So many times as fast as it was it is played, for the page to say")
+      ->needs(replay_option)
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   return node.Run(argc, argv, [&](skein::bus::Bus& bus, skein::bus::LiveExecutor& executor) {
     if (!web_folder.empty()) {
       options.web_folder = web_folder;
@@ -51,6 +62,8 @@ int main(int argc, char** argv) {
       options.tiles.emplace(tiles);
       options.hello.tiles = options.tiles->Description();
     }
+    if (!replay.empty())
+      options.hello.replay = {{"kind", "player"}, {"name", replay}, {"speed", replay_speed}};
     options.hello.version = SKEIN_VERSION;
     options.hello.lcm_url = node.lcm_url();
     auto result = std::make_shared<bridge::WebBridge>(bus, executor, options);

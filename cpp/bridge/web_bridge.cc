@@ -13,7 +13,7 @@ WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOpt
       events_(bus),
       server_(web_context_, options.listen, options.port,
               {options.web_folder, options.allowed_hosts, options.hello.tile_url, options.tiles},
-              MakeBackend(executor)),
+              MakeBackend(executor, options.hello.replay != nullptr)),
       port_(server_.port()),
       web_thread_([this] { web_context_.run(); }) {}
 
@@ -22,7 +22,7 @@ WebBridge::~WebBridge() {
   web_thread_.join();
 }
 
-Backend WebBridge::MakeBackend(bus::LiveExecutor& executor) {
+Backend WebBridge::MakeBackend(bus::LiveExecutor& executor, bool replay) {
   // Over to the bus's thread for the result, and back with it.
   const auto ask = [this, &executor](auto make_result) {
     return [this, &executor, make_result](auto reply) {
@@ -32,6 +32,7 @@ Backend WebBridge::MakeBackend(bus::LiveExecutor& executor) {
     };
   };
   Backend backend;
+  if (replay) backend.why_no_command = "this is a replay: nothing can be commanded";
   backend.snapshot = ask([this] { return mirror_.Snapshot(); });
   backend.state = ask([this] { return Dump(mirror_.State()); });
   backend.vehicles = ask([this] { return Dump(mirror_.Vehicles()); });

@@ -45,7 +45,7 @@ class WebBridge {
   std::uint16_t port() const { return port_; }
 
  private:
-  Backend MakeBackend(bus::LiveExecutor& executor);
+  Backend MakeBackend(bus::LiveExecutor& executor, bool replay);
 
   BusMirror mirror_;
   CommandGateway gateway_;

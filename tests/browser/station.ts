@@ -7,13 +7,13 @@ import { fileURLToPath } from "node:url";
 import { onTestFailed } from "vitest";
 
 const kHere = fileURLToPath(new URL(".", import.meta.url));
-const kBin = process.env["SKEIN_BIN"] ?? `${kHere}../../build/bin`;
+export const kBin = process.env["SKEIN_BIN"] ?? `${kHere}../../build/bin`;
 /** Files run side by side, each on a bus and a port of its own: the first ones are given, the next files count on. */
 const kWorker = Number(process.env["VITEST_POOL_ID"] ?? "1") - 1;
 const kFirstLcmPort = Number(process.env["SKEIN_TEST_LCM_PORT"] ?? "7707");
 const kFirstPort = Number(process.env["SKEIN_TEST_PORT"] ?? "8107");
-const kLcmUrl = `udpm://239.255.76.67:${kFirstLcmPort + kWorker}?ttl=0`;
-const kPort = String(kFirstPort + kWorker);
+export const kLcmUrl = `udpm://239.255.76.67:${kFirstLcmPort + kWorker}?ttl=0`;
+export const kPort = String(kFirstPort + kWorker);
 const kWeb = `${kHere}../../web/dist`;
 
 const kNodes = ["web-bridge", "fleet-simulator", "formation-controller", "collision-monitor"] as const;

@@ -6,9 +6,14 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <skein/ack_t.hpp>
+#include <skein/fleet_state_t.hpp>
 #include <string>
 
+#include "bus/channels.h"
+#include "system/bus_ear.h"
 #include "system/flight_log.h"
 #include "system/http.h"
 #include "system/live_flight.h"
@@ -32,23 +37,42 @@ json WaitForVehicles(int port, const FlightLog& log, std::chrono::seconds timeou
   }
 }
 
+Finished CutLinkOf3(const std::string& lcm_url) {
+  return RunToEnd({Program("skein"), "--lcm-url", lcm_url, "link", "cut", "3", "--for", "3"});
+}
+
+/// A flight of `end_s` in which the link of UAV3 is cut after two seconds, for three.
+void RecordAFlight(const std::string& file, double end_s) {
+  LiveFlight flight("triangle", file);
+  ASSERT_TRUE(flight.WaitUntil(2, 30s));
+  const Finished cut = CutLinkOf3(flight.lcm_url());
+  ASSERT_EQ(cut.exit_code, 0) << cut.output;
+  ASSERT_TRUE(flight.WaitUntil(end_s, 60s));
+  ASSERT_TRUE(flight.End());
+}
+
+Process StartReplay(const std::string& file, int port, const std::string& lcm_url,
+                    std::vector<std::string> more) {
+  std::vector<std::string> command = {std::string(SKEIN_SOURCE_DIR) + "/scripts/replay",
+                                      file,
+                                      "--port",
+                                      std::to_string(port),
+                                      "--lcm-url",
+                                      lcm_url};
+  command.insert(command.end(), more.begin(), more.end());
+  return Process(command);
+}
+
 TEST(Replay, ShowsOnASecondPageTheFlightThatWasRecorded) {
   const std::string folder = FreshFolder("skein-replay");
   const std::string file = folder + "/flight.lcm";
-  LiveFlight flight("triangle", file);
-  ASSERT_TRUE(flight.WaitUntil(2, 30s));
-  const Finished cut =
-      RunToEnd({Program("skein"), "--lcm-url", flight.lcm_url(), "link", "cut", "3", "--for", "3"});
-  ASSERT_EQ(cut.exit_code, 0) << cut.output;
-  ASSERT_TRUE(flight.WaitUntil(10, 30s));
-  ASSERT_TRUE(flight.End());
+  RecordAFlight(file, 10);
   const FlightLog log = ReadFlightLog(file);
   ASSERT_EQ(log.curves.size(), 3U);
 
   const int port = FreeTcpPort();
-  Process replay({std::string(SKEIN_SOURCE_DIR) + "/scripts/replay", file, "--speed", "5", "--port",
-                  std::to_string(port), "--lcm-url", FreshLcmUrl()});
-  ASSERT_TRUE(replay.WaitForOutput("That was the end of the log", 60s)) << replay.output();
+  Process replay = StartReplay(file, port, FreshLcmUrl(), {"--speed", "5"});
+  ASSERT_TRUE(replay.WaitForOutput("That was the end of the recording", 60s)) << replay.output();
 
   // The player has sent the last tick; the page's bridge may still have it before it.
   const json vehicles = WaitForVehicles(port, log, 10s);
@@ -72,8 +96,119 @@ TEST(Replay, ShowsOnASecondPageTheFlightThatWasRecorded) {
   EXPECT_TRUE(std::any_of(log.events.begin(), log.events.end(),
                           [](const EventAt& item) { return item.event.code == "link_cut"; }));
 
+  EXPECT_EQ(state.at("hello").at("replay"),
+            (json{{"kind", "player"}, {"name", "flight.lcm"}, {"speed", 5.0}}));
+  const HttpAnswer command =
+      HttpPost(port, "/api/command", R"({"channel":"CMD_LINK","body":{"vehicle_id":3,"mode":"silent"}})");
+  EXPECT_EQ(command.status, 409);
+  EXPECT_EQ(json::parse(command.body).at("reason"), "this is a replay: nothing can be commanded");
+
   replay.Signal(SIGINT);
   EXPECT_EQ(replay.WaitForEnd(10s), 0) << replay.output();
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Replay, PlaysCommandsOnlyWhenAsked) {
+  const std::string folder = FreshFolder("skein-replay");
+  const std::string file = folder + "/flight.lcm";
+  RecordAFlight(file, 4);
+  // A recording in two parts.
+  std::filesystem::copy(file, file + ".01");
+  for (const bool asked : {false, true}) {
+    const std::string url = FreshLcmUrl();
+    Process spy({Program("skein"), "--lcm-url", url, "spy", "--json"});
+    Process replay =
+        StartReplay(file, FreeTcpPort(), url,
+                    asked ? std::vector<std::string>{"--with-commands"} : std::vector<std::string>{});
+    ASSERT_TRUE(replay.WaitForOutput("flight.lcm.01\n", 60s)) << replay.output();
+    ASSERT_TRUE(replay.WaitForOutput("That was the end of the recording", 60s)) << replay.output();
+    replay.Signal(SIGINT);
+    EXPECT_EQ(replay.WaitForEnd(10s), 0) << replay.output();
+    spy.Signal(SIGINT);
+    EXPECT_EQ(spy.WaitForEnd(10s), 0);
+    EXPECT_NE(spy.output().find("\"FLEET_STATE\""), std::string::npos) << spy.output();
+    EXPECT_EQ(spy.output().find("\"CMD_") != std::string::npos, asked) << spy.output();
+    EXPECT_EQ(spy.output().find("\"CMD_LINK\"") != std::string::npos, asked) << spy.output();
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Replay, RefusesABusOnWhichNodesLiveAndTheLiveOne) {
+  const std::string folder = FreshFolder("skein-replay");
+  const std::string file = folder + "/flight.lcm";
+  LiveFlight flight("triangle", file);
+  ASSERT_TRUE(flight.WaitUntil(1, 30s));
+  Process replay = StartReplay(file, FreeTcpPort(), flight.lcm_url(), {});
+  EXPECT_EQ(replay.WaitForEnd(30s), 2);
+  EXPECT_NE(replay.output().find("nodes are alive on"), std::string::npos) << replay.output();
+  // Another group is no other bus.
+  Process live = StartReplay(file, FreeTcpPort(), "udpm://239.255.76.68:7667?ttl=0", {});
+  EXPECT_EQ(live.WaitForEnd(30s), 2);
+  EXPECT_NE(live.output().find("is the live bus"), std::string::npos) << live.output();
+  ASSERT_TRUE(flight.End());
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Replay, ThatIsPlayedOnALiveBusCommandsNobody) {
+  const std::string folder = FreshFolder("skein-replay");
+  LiveFlight flight("triangle", folder + "/live.lcm");
+  ASSERT_TRUE(flight.WaitUntil(1, 30s));
+  // A later flight than this one, so that all its sessions are newer.
+  const std::string later = folder + "/later.lcm";
+  RecordAFlight(later, 5);
+  const auto now = std::chrono::duration_cast<std::chrono::microseconds>(
+      std::chrono::system_clock::now().time_since_epoch());
+  Process player({"lcm-logplayer", "--lcm-url=" + flight.lcm_url(), "--regexp=CMD_.*", later});
+  // The simulator of this flight answers; its session is older than anything in the recording.
+  EXPECT_TRUE(Hears<ack_t>(
+      flight.lcm_url(), bus::channel::kAck,
+      [](const ack_t& ack) {
+        return !ack.accepted && ack.reason == "meant for another run of fleet-simulator: send it again";
+      },
+      30s));
+  EXPECT_EQ(player.WaitForEnd(30s), 0) << player.output();
+  ASSERT_TRUE(Hears<fleet_state_t>(
+      flight.lcm_url(), bus::channel::kFleetState, [](const fleet_state_t&) { return true; }, 5s));
+  // Its own controller still flies it, and can be asked.
+  const Finished cut = CutLinkOf3(flight.lcm_url());
+  EXPECT_EQ(cut.exit_code, 0) << cut.output;
+  ASSERT_TRUE(flight.End());
+  const FlightLog log = ReadFlightLog(folder + "/live.lcm");
+  for (const auto& [id, curve] : log.curves) {
+    const std::int64_t session = curve.back().state.command_session_id;
+    EXPECT_GT(session, 0);
+    EXPECT_LT(session, now.count());
+    EXPECT_TRUE(std::all_of(curve.begin(), curve.end(),
+                            [&](const StateAt& at) {
+                              return at.state.command_session_id == session ||
+                                     at.state.command_session_id == 0;
+                            }))
+        << "UAV " << id << " has obeyed another controller";
+  }
+  for (const EventAt& item : log.events) {
+    EXPECT_FALSE(item.event.code == "link_lost" && item.event.vehicle_id != 3) << item.event.text;
+  }
+  // One cut: the one that was really asked for.
+  EXPECT_EQ(std::count_if(log.events.begin(), log.events.end(),
+                          [](const EventAt& item) { return item.event.code == "link_cut"; }),
+            1);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Replay, SaysWhatIsWrongWithAFile) {
+  const std::string folder = FreshFolder("skein-replay");
+  const std::string script = std::string(SKEIN_SOURCE_DIR) + "/scripts/replay";
+  std::ofstream(folder + "/empty.lcm");
+  std::ofstream(folder + "/text.lcm") << "This is no recording.";
+  const std::vector<std::pair<std::string, std::string>> wrong = {{folder, "is a folder"},
+                                                                  {folder + "/none.lcm", "no such file"},
+                                                                  {folder + "/empty.lcm", "is empty"},
+                                                                  {folder + "/text.lcm", "is no LCM log"}};
+  for (const auto& [file, reason] : wrong) {
+    const Finished replay = RunToEnd({script, file, "--lcm-url", FreshLcmUrl()});
+    EXPECT_EQ(replay.exit_code, 2) << replay.output;
+    EXPECT_NE(replay.output.find(reason), std::string::npos) << replay.output;
+  }
   std::filesystem::remove_all(folder);
 }
 

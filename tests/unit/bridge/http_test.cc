@@ -167,6 +167,28 @@ TEST_F(HttpTest, GivesStateAndVehiclesAsJson) {
   EXPECT_EQ(client.Get("/api/nothing").value().status, 404);
 }
 
+TEST(Replay, RefusesCommandsAndChangesFlownAheadAndSaysSoInHello) {
+  BridgeOptions options;
+  options.hello.replay = {{"kind", "player"}, {"name", "triangle"}, {"speed", 2}};
+  BridgeUnderTest bridge(options);
+  int heard = 0;
+  bridge.OnBus([&](bus::Bus& other) {
+    other.Subscribe<link_command_t>(bus::channel::kCmdLink, [&](const link_command_t&) { ++heard; });
+  });
+  RawClient client(bridge.port());
+  const auto command =
+      client.Post("/api/command", R"({"channel":"CMD_LINK","body":{"vehicle_id":3,"mode":"silent"}})");
+  EXPECT_EQ(command.value().status, 409);
+  EXPECT_EQ(json::parse(command->body),
+            (json{{"accepted", false}, {"reason", "this is a replay: nothing can be commanded"}}));
+  const auto preview = client.Post("/api/preview/path", "{}");
+  EXPECT_EQ(preview.value().status, 409);
+  EXPECT_EQ(json::parse(preview->body)["reason"], "this is a replay: nothing can be commanded");
+  const json state = json::parse(client.Get("/api/state").value().body);
+  EXPECT_EQ(state["hello"]["replay"], (json{{"kind", "player"}, {"name", "triangle"}, {"speed", 2}}));
+  bridge.OnBus([&](bus::Bus&) { EXPECT_EQ(heard, 0); });
+}
+
 TEST_F(HttpTest, PassesCommandsOnAndTellsTheAnswer) {
   std::unique_ptr<bus::CommandInbox> inbox;
   bridge_->OnBus([&](bus::Bus& other) {

@@ -93,6 +93,24 @@ TEST(Live, AnswersCommandsWithTheirId) {
   EXPECT_EQ(refused["reason"], "there is no UAV 9");
 }
 
+TEST(Live, GivesControlToNobodyInAReplay) {
+  BridgeOptions options;
+  options.hello.replay = {{"kind", "player"}, {"name", "triangle"}};
+  BridgeUnderTest bridge(options);
+  LiveClient browser(bridge.port());
+  EXPECT_EQ(browser.ReadText("hello")["replay"]["name"], "triangle");
+  browser.Send(R"({"type":"control","id":"j","action":"join","name":"Ada"})");
+  EXPECT_EQ(browser.ReadText("ack")["accepted"], true);
+  browser.Send(R"({"type":"control","id":"t","action":"take"})");
+  const json taken = browser.ReadText("ack");
+  EXPECT_EQ(taken["accepted"], false);
+  EXPECT_EQ(taken["reason"], "this is a replay: nothing can be commanded");
+  browser.Send(kCut);
+  const json refused = browser.ReadText("ack");
+  EXPECT_EQ(refused["accepted"], false);
+  EXPECT_EQ(refused["reason"], "this is a replay: nothing can be commanded");
+}
+
 TEST(Live, SaysWhenNobodyAnswersACommand) {
   BridgeUnderTest bridge;
   LiveClient browser(bridge.port());

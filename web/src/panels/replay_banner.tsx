@@ -10,6 +10,7 @@ export function ReplayBanner({ live_url }: { live_url: string | null }) {
       <strong>REPLAY</strong>
       <span class="replay-name" title={shown.name}>
         {shown.name}
+        {shown.speed !== undefined && shown.speed !== 1 && `, ${shown.speed} times as fast`}
       </span>
       <span class="replay-why">
         {shown.kind === "player" ? "Played on this bus by lcm-logplayer. " : ""}Nothing here happens now, and

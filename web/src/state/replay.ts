@@ -5,6 +5,8 @@ import { signal } from "@preact/signals";
 export interface Replay {
   kind: "player" | "log";
   name: string;
+  /** How many times as fast as it was a player plays it. */
+  speed?: number;
 }
 
 /** Null: live. */
