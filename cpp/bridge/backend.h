@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bridge/command_gateway.h"
-#include "bridge/history.h"
+#include "bridge/history_query.h"
 #include "bridge/live_frame.h"
 #include "bridge/previewer.h"
 

@@ -11,6 +11,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "columns are copied as they lie in memory");
 
+using recording::FleetRow;
 using Rows = std::vector<std::pair<std::int32_t, const FleetRow*>>;
 
 template <typename Number>
@@ -45,7 +46,7 @@ void Column(std::string& bytes, const Rows& rows, std::optional<Part> FleetRow::
 
 }  // namespace
 
-std::string EncodeMotion(const FleetTable& fleet, FrameTime time, bus::Utime now) {
+std::string EncodeMotion(const recording::FleetTable& fleet, FrameTime time, bus::Utime now) {
   Rows rows;
   for (const auto& [id, row] : fleet.rows()) {
     if (row.state) rows.emplace_back(id, &row);
@@ -66,7 +67,7 @@ std::string EncodeMotion(const FleetTable& fleet, FrameTime time, bus::Utime now
   return bytes;
 }
 
-std::string EncodeStatus(const FleetTable& fleet, FrameTime time) {
+std::string EncodeStatus(const recording::FleetTable& fleet, FrameTime time) {
   Rows rows;
   for (const auto& [id, row] : fleet.rows()) rows.emplace_back(id, &row);
   std::string bytes = Header(kStatusKind, rows.size(), time);

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "bridge/fleet_table.h"
+#include "recording/fleet_table.h"
 
 namespace skein::bridge {
 
@@ -16,12 +16,12 @@ struct FrameTime {
 
 inline constexpr unsigned char kMotionKind = 1;
 inline constexpr unsigned char kStatusKind = 2;
-inline constexpr unsigned char kHistoryKind = 3;  ///< history.h
+inline constexpr unsigned char kHistoryKind = 3;  ///< history_answer.h
 
 /// Where everybody is; UAVs never heard are left out.
-std::string EncodeMotion(const FleetTable& fleet, FrameTime time, bus::Utime now);
+std::string EncodeMotion(const recording::FleetTable& fleet, FrameTime time, bus::Utime now);
 
 /// Slots, proximity and links of everybody.
-std::string EncodeStatus(const FleetTable& fleet, FrameTime time);
+std::string EncodeStatus(const recording::FleetTable& fleet, FrameTime time);
 
 }  // namespace skein::bridge

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bridge/fleet_json.h"
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
@@ -183,7 +184,7 @@ void BusMirror::Look() {
     sink_(TextFrame(Dump(Silent()), "bus"));
   }
   ForgetFormations();
-  history_.Take(fleet_, Time(), Now());
+  history_.Take(fleet_, Time().t_s, Now());
 }
 
 void BusMirror::ForgetFormations() {
@@ -239,7 +240,8 @@ Json BusMirror::Hello() const {
           {"tile_url", hello_.tile_url.empty() ? Json() : Json(hello_.tile_url)},
           {"tile_attribution", hello_.tile_attribution},
           {"tiles", hello_.tiles},
-          {"replay", hello_.replay}};
+          {"replay", hello_.replay},
+          {"recordings", hello_.recordings}};
 }
 
 Json BusMirror::Silent() const { return {{"type", "bus"}, {"nodes_silent", silent_}}; }

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "bridge/binary_frames.h"
-#include "bridge/fleet_table.h"
-#include "bridge/history.h"
 #include "bridge/json_messages.h"
 #include "bridge/live_frame.h"
 #include "bus/bus.h"
 #include "controller/state_file.h"
 #include "core/path.h"
 #include "experiment/preview.h"
+#include "recording/fleet_table.h"
+#include "recording/history.h"
 
 namespace skein::bridge {
 
@@ -26,8 +26,9 @@ struct HelloInfo {
   std::string lcm_url;
   std::string tile_url;  ///< "": none
   std::string tile_attribution;
-  Json tiles = nullptr;   ///< the operator's own map (MapTiles::Description), null: none
-  Json replay = nullptr;  ///< {kind, name} when this is no live flight (README.md)
+  Json tiles = nullptr;       ///< the operator's own map (MapTiles::Description), null: none
+  Json replay = nullptr;      ///< {kind, name} when this is no live flight (README.md)
+  Json recordings = nullptr;  ///< {live_bus, only} when recordings are served, too
 };
 
 /// Hears everything on the bus, holds the last of each, and says what has changed as frames for the browsers
@@ -42,6 +43,10 @@ class BusMirror {
   /// what comes later.
   std::vector<LiveFrame> Snapshot() const;
 
+  /// Where everybody is, and what is known of everybody, at this moment.
+  LiveFrame Motion() const;
+  LiveFrame Status() const;
+
   /// The flight as it is now, to fly a change ahead from.
   experiment::FlightPicture Picture() const;
 
@@ -50,7 +55,7 @@ class BusMirror {
   Json Vehicles() const;
 
   /// The flight so far, and when it began.
-  const HistorySamples& FlightSoFar() const { return history_.samples(); }
+  const recording::HistorySamples& FlightSoFar() const { return history_.samples(); }
   bus::Utime start_utime() const { return roster_.start_utime; }
 
   static constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;
@@ -102,15 +107,13 @@ class BusMirror {
   Json Silent() const;
   /// Null when it was not heard of late.
   Json Recording() const;
-  LiveFrame Motion() const;
-  LiveFrame Status() const;
 
   bus::Bus& bus_;
   HelloInfo hello_;
   Sink sink_;
 
-  FleetTable fleet_;
-  History history_;
+  recording::FleetTable fleet_;
+  recording::History history_;
   fleet_roster_t roster_{};
   Json roster_shown_;  ///< null: none yet
   Airspace airspace_;

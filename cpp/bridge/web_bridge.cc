@@ -2,6 +2,8 @@
 
 #include <boost/asio/post.hpp>
 
+#include "bridge/history_answer.h"
+
 namespace skein::bridge {
 
 WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOptions& options)

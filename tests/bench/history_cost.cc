@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <string>
 
-#include "bridge/history.h"
+#include "bridge/history_answer.h"
 
 namespace {
 
 using skein::bridge::EncodeHistory;
-using skein::bridge::FleetTable;
-using skein::bridge::History;
 using skein::bridge::HistoryQuery;
+using skein::recording::FleetTable;
+using skein::recording::History;
 
 constexpr int kFlight_s = 3600;
 constexpr skein::bus::Utime kNow = 1'000'000'000;
@@ -45,7 +45,7 @@ void Measure(int vehicles) {
   double sum_ms = 0;
   double worst_ms = 0;
   for (int t_s = 0; t_s < kFlight_s; ++t_s) {
-    const double took_ms = Milliseconds([&] { history.Take(fleet, {1, double(t_s)}, kNow); });
+    const double took_ms = Milliseconds([&] { history.Take(fleet, double(t_s), kNow); });
     sum_ms += took_ms;
     worst_ms = std::max(worst_ms, took_ms);
   }

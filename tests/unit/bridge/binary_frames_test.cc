@@ -7,6 +7,7 @@
 namespace skein::bridge {
 namespace {
 
+using recording::FleetTable;
 using Ints = std::vector<std::int32_t>;
 using Floats = std::vector<float>;
 using Bytes = std::vector<int>;

@@ -1,13 +1,15 @@
-#include "bridge/history.h"
+#include "bridge/history_answer.h"
 
 #include <gtest/gtest.h>
 
 #include <cstring>
 
-#include "bridge/history_query.h"
-
 namespace skein::bridge {
 namespace {
+
+using recording::FleetTable;
+using recording::History;
+using recording::HistoryRow;
 
 constexpr bus::Utime kNow = 1'000'000'000;
 
@@ -79,8 +81,8 @@ TEST(History, TakesASampleASecondFromTheStartOn) {
   FleetTable fleet;
   Fly(fleet, {1}, 1000);
   History history;
-  history.Take(fleet, {1, -1}, kNow);  // not started yet
-  for (double t_s = 0; t_s < 10; t_s += 0.25) history.Take(fleet, {1, t_s}, kNow);
+  history.Take(fleet, -1, kNow);  // not started yet
+  for (double t_s = 0; t_s < 10; t_s += 0.25) history.Take(fleet, t_s, kNow);
   ASSERT_EQ(history.samples().size(), 10u);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(history.samples()[i]->t_s, static_cast<double>(i));
 }
@@ -89,7 +91,7 @@ TEST(History, IsNotPutOffByASampleThatIsLateNorFilledByASilentBus) {
   FleetTable fleet;
   Fly(fleet, {1}, 1000);
   History history;
-  for (const double t_s : {0., 1.9, 2.1, 2.1, 2.1, 3.}) history.Take(fleet, {1, t_s}, kNow);
+  for (const double t_s : {0., 1.9, 2.1, 2.1, 2.1, 3.}) history.Take(fleet, t_s, kNow);
   std::vector<double> times;
   for (const auto& sample : history.samples()) times.push_back(sample->t_s);
   EXPECT_EQ(times, (std::vector{0., 1.9, 2.1, 3.}));
@@ -100,7 +102,7 @@ TEST(History, KeepsEverySecondSampleWhenThereAreTooManyAndStillBeginsAtTheStart)
   Fly(fleet, {1}, 1000);
   History history({.samples = 100, .rows = 1'000'000});
   for (int t_s = 0; t_s < 1000; ++t_s) {
-    history.Take(fleet, {1, double(t_s)}, kNow);
+    history.Take(fleet, double(t_s), kNow);
     ASSERT_LE(history.samples().size(), 100u);
   }
   EXPECT_EQ(history.spacing_s(), 16);
@@ -117,7 +119,7 @@ TEST(History, HoldsNoMoreRowsThanAllowedHoweverManyFly) {
   History history({.samples = 1000, .rows = 2000});
   std::size_t rows = 0;
   for (int t_s = 0; t_s < 500; ++t_s) {
-    history.Take(fleet, {1, double(t_s)}, kNow);
+    history.Take(fleet, double(t_s), kNow);
     rows = 0;
     for (const auto& sample : history.samples()) rows += sample->rows.size();
     ASSERT_LE(rows, 2000u);
@@ -129,7 +131,7 @@ TEST(History, BeginsAnewWhenTimeRunsBackwards) {
   FleetTable fleet;
   Fly(fleet, {1}, 1000);
   History history;
-  for (const double t_s : {100., 101., 0., 1.}) history.Take(fleet, {1, t_s}, kNow);
+  for (const double t_s : {100., 101., 0., 1.}) history.Take(fleet, t_s, kNow);
   ASSERT_EQ(history.samples().size(), 2u);
   EXPECT_EQ(history.samples()[0]->t_s, 0);
 }
@@ -139,8 +141,8 @@ TEST(History, DoesNotPassOffWhatWasHeardLastAsNews) {
   Fly(fleet, {1, 2}, 1000);
   Lose(fleet, 2);
   History history;
-  history.Take(fleet, {1, 0}, kNow);
-  history.Take(fleet, {1, 1}, kNow + 3 * bus::kSecond);
+  history.Take(fleet, 0, kNow);
+  history.Take(fleet, 1, kNow + 3 * bus::kSecond);
   const auto& samples = history.samples();
   EXPECT_EQ(samples[0]->rows[0].flags, HistoryRow::kHeard);
   EXPECT_EQ(samples[0]->rows[1].flags, 0);
@@ -166,10 +168,10 @@ TEST(HistoryAnswer, HasTheColumnsThatBrowsersExpectInTheOrderAskedFor) {
   proximity.vehicles = {near};
   fleet.Take(proximity);
   History history;
-  history.Take(fleet, {1, 0.25}, kNow);
+  history.Take(fleet, 0.25, kNow);
   Fly(fleet, {3, 7, 5}, 1100);  // UAV 5 joins
-  history.Take(fleet, {1, 1.25}, kNow);
-  history.Take(fleet, {1, 2.25}, kNow);
+  history.Take(fleet, 1.25, kNow);
+  history.Take(fleet, 2.25, kNow);
 
   const HistoryReader all(EncodeHistory(history.samples(), {{7, 5, 99}}, 1'577'836'800'000'000));
   EXPECT_EQ(all.kind, 3);

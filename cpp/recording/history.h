@@ -6,10 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "bridge/binary_frames.h"
-#include "bridge/fleet_table.h"
+#include "recording/fleet_table.h"
 
-namespace skein::bridge {
+namespace skein::recording {
 
 /// One UAV at one moment, as the charts draw it.
 struct HistoryRow {
@@ -44,8 +43,9 @@ class History {
   History() : History(Limits{}) {}
   explicit History(Limits limits) : limits_(limits) {}
 
-  /// Takes a sample when one is due. Time that runs backwards begins another flight.
-  void Take(const FleetTable& fleet, FrameTime time, bus::Utime now);
+  /// Takes a sample when one is due. @param t_s since the scenario's start, less than 0: not known. Time that
+  /// runs backwards begins another flight.
+  void Take(const FleetTable& fleet, double t_s, bus::Utime now);
   void Clear();
 
   const HistorySamples& samples() const { return samples_; }
@@ -60,15 +60,4 @@ class History {
   double spacing_s_ = 1;
 };
 
-struct HistoryQuery {
-  static constexpr std::size_t kMostIds = 32;  ///< of one request: it is encoded in one go
-
-  std::vector<std::int32_t> ids;
-  double since_s = -1;  ///< only samples after this
-};
-
-/// The binary answer of GET /api/history (README.md): the UAVs in the order asked for. One that is not in a
-/// sample has no flags there, and -1 where that means none.
-std::string EncodeHistory(const HistorySamples& samples, const HistoryQuery& query, bus::Utime start_utime);
-
-}  // namespace skein::bridge
+}  // namespace skein::recording

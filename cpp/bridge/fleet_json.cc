@@ -1,6 +1,4 @@
-#include "bridge/fleet_table.h"
-
-#include <set>
+#include "bridge/fleet_json.h"
 
 namespace skein::bridge {
 namespace {
@@ -18,7 +16,7 @@ const char* LinkName(std::int8_t state) {
   }
 }
 
-Json Row(std::int32_t id, const FleetRow& row, bus::Utime now) {
+Json Row(std::int32_t id, const recording::FleetRow& row, bus::Utime now) {
   Json result = {{"id", id}, {"formation_id", row.formation_id}};
   const auto add = [&result](const char* name, const auto& part, auto value) {
     result[name] = part ? Json(value(*part)) : Json(nullptr);
@@ -54,69 +52,7 @@ Json Row(std::int32_t id, const FleetRow& row, bus::Utime now) {
 
 }  // namespace
 
-void FleetTable::Take(const std::vector<vehicle_info_t>& roster) {
-  std::set<std::int32_t> named;
-  for (const vehicle_info_t& info : roster) {
-    rows_[info.id].info = info;
-    named.insert(info.id);
-  }
-  std::erase_if(rows_, [&](const auto& entry) { return !named.contains(entry.first); });
-}
-
-void FleetTable::Take(const fleet_state_t& chunk, bus::Utime now) {
-  for (const vehicle_state_t& state : chunk.vehicles) {
-    FleetRow& row = rows_[state.id];
-    row.state = state;
-    row.heard_at = now;
-  }
-}
-
-void FleetTable::Take(std::int32_t formation_id, const std::vector<slot_status_t>& slots) {
-  RemoveFormation(formation_id);
-  for (const slot_status_t& slot : slots) {
-    FleetRow& row = rows_[slot.vehicle_id];
-    row.formation_id = formation_id;
-    row.slot = slot;
-  }
-}
-
-bool FleetTable::Take(const proximity_t& chunk) {
-  bool changed = false;
-  for (const vehicle_proximity_t& near : chunk.vehicles) {
-    FleetRow& row = rows_[near.id];
-    changed |= near.level != (row.proximity ? row.proximity->level : 0);
-    row.proximity = near;
-  }
-  return changed;
-}
-
-bool FleetTable::Take(const link_status_t& chunk) {
-  bool changed = false;
-  for (const vehicle_link_t& link : chunk.links) {
-    FleetRow& row = rows_[link.id];
-    changed |= !row.link || row.link->downlink != link.downlink || row.link->uplink != link.uplink;
-    row.link = link;
-  }
-  return changed;
-}
-
-void FleetTable::StartAnew() {
-  for (auto& [id, row] : rows_) {
-    FleetRow known;
-    known.info = row.info;
-    row = known;
-  }
-}
-
-void FleetTable::RemoveFormation(std::int32_t formation_id) {
-  for (auto& [id, row] : rows_) {
-    if (row.formation_id != formation_id) continue;
-    row.formation_id = 0;
-    row.slot.reset();
-  }
-}
-
-Json ToJson(const FleetTable& fleet, bus::Utime now) {
+Json ToJson(const recording::FleetTable& fleet, bus::Utime now) {
   Json rows = Json::array();
   for (const auto& [id, row] : fleet.rows()) rows.push_back(Row(id, row, now));
   return rows;

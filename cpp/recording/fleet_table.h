@@ -10,16 +10,15 @@
 #include <skein/proximity_t.hpp>
 #include <vector>
 
-#include "bridge/json_messages.h"
 #include "bus/executor.h"
 
-namespace skein::bridge {
+namespace skein::recording {
 
 /// All that the bus has said of one UAV.
 struct FleetRow {
   std::optional<vehicle_info_t> info;
   std::optional<vehicle_state_t> state;
-  bus::Utime heard_at = 0;  ///< when `state` came in, on the bridge's clock
+  bus::Utime heard_at = 0;  ///< when `state` came in, on the clock of who keeps the table
   std::int32_t formation_id = 0;
   std::optional<slot_status_t> slot;
   std::optional<vehicle_proximity_t> proximity;
@@ -49,7 +48,4 @@ class FleetTable {
   std::map<std::int32_t, FleetRow> rows_;
 };
 
-/// The rows as /api/vehicles shows them; null for what is not known.
-Json ToJson(const FleetTable& fleet, bus::Utime now);
-
-}  // namespace skein::bridge
+}  // namespace skein::recording
