@@ -35,4 +35,10 @@ void SimulatedExecutor::RunUntil(Utime utime) {
   now_ = utime;
 }
 
+void SimulatedExecutor::SkipTo(Utime utime) {
+  assert(utime >= now_);
+  Deliver();
+  now_ = utime;
+}
+
 }  // namespace skein::bus

@@ -25,6 +25,9 @@ class SimulatedExecutor : public Executor {
   /// Delivers what is queued, then runs everything that is due up to `utime`, that moment included; it is
   /// `utime` after.
   void RunUntil(Utime utime);
+  /// Delivers what is queued; it is `utime` then, and timers that were due meanwhile run once, late, in the
+  /// next RunUntil.
+  void SkipTo(Utime utime);
   void RunFor(Utime duration) { RunUntil(now_ + duration); }
 
   /// Delivers queued messages until there are none.

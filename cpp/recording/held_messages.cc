@@ -1,0 +1,47 @@
+#include "recording/held_messages.h"
+
+#include <algorithm>
+
+#include "bus/channels.h"
+
+namespace skein::recording {
+
+HeldMessages::Stream& HeldMessages::Find(const std::string& name) {
+  const auto known = streams_.find(name);
+  if (known != streams_.end()) return known->second;
+  if (streams_.size() >= kMostStreams) return nobody_;
+  Stream& stream = streams_[name];
+  stream.last.stream = static_cast<std::uint32_t>(index_.streams.size());
+  index_.streams.push_back(name);
+  return stream;
+}
+
+void HeldMessages::Begin(Stream& stream, bus::Utime utime, std::uint64_t offset) {
+  if (stream.seen && utime - stream.last.utime > LogIndex::kPause) Keep(stream.last);
+  stream.last.utime = utime;
+  stream.last.offset = offset;
+  stream.last.messages = 1;
+  stream.seen = true;
+}
+
+void HeldMessages::Keep(const HeldMessage& message) {
+  if (message.stream < index_.streams.size() && index_.held.size() < kMostKept)
+    index_.held.push_back(message);
+}
+
+void HeldMessages::See(const fleet_state_t& state, bus::Utime utime, std::uint64_t offset) {
+  for (const vehicle_state_t& vehicle : state.vehicles) {
+    Stream*& stream = vehicles_[vehicle.id];
+    if (!stream) stream = &Find(std::string(bus::channel::kFleetState) + "/" + std::to_string(vehicle.id));
+    Begin(*stream, utime, offset);
+  }
+}
+
+void HeldMessages::Finish() {
+  for (const auto& [name, stream] : streams_) {
+    if (stream.seen) Keep(stream.last);
+  }
+  std::ranges::stable_sort(index_.held, {}, &HeldMessage::utime);
+}
+
+}  // namespace skein::recording

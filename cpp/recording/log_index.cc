@@ -1,0 +1,245 @@
+#include "recording/log_index.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <skein/ack_t.hpp>
+#include <string_view>
+#include <utility>
+
+#include "bus/channels.h"
+#include "bus/chunks.h"
+#include "bus/validate.h"
+#include "recording/held_messages.h"
+#include "recording/log_clock.h"
+
+namespace skein::recording {
+namespace {
+
+namespace channel = bus::channel;
+
+constexpr std::uint64_t kPointEveryBytes = 256 * 1024;
+constexpr std::uint64_t kTellEveryBytes = 4u << 20;
+constexpr std::size_t kMostChannels = 10'000;
+constexpr std::size_t kLongestText = 500;
+constexpr bus::Utime kLookPeriod = bus::kSecond / 4;
+
+/// Cut between two characters of UTF-8.
+std::string Cut(const std::string& text) {
+  if (text.size() <= kLongestText) return text;
+  std::size_t end = kLongestText;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end);
+}
+
+class Indexer {
+ public:
+  explicit Indexer(LogIndex& index);
+
+  void Take(const LogEvent& event);
+  void Finish(const LogReader& reader);
+
+ private:
+  /// Whether the message is a good one.
+  using Handler = std::function<bool(const LogEvent&)>;
+
+  template <typename Message>
+  void Know(
+      const char* name, std::function<void(const Message&)> handler = [](const Message&) {});
+  template <typename Message>
+  void KnowChunks(const char* name, std::function<void(const Message&)> handle_whole);
+  void KnowAll();
+
+  void Hear(const fleet_roster_t& roster);
+  void Hear(const event_t& event);
+  void Hear(const alarm_list_t& list);
+  IndexedFlight& Flight();
+  void Count(const LogEvent& event, bool good);
+  void TellDamage(std::uint64_t offset, std::uint64_t bytes, std::string reason, bus::Utime utime);
+
+  LogIndex& index_;
+  HeldMessages held_;
+  LogClock clock_;
+  bus::Utime now_ = 0;
+  std::uint64_t offset_ = 0;  ///< of the event that is being read
+  std::map<std::string, Handler, std::less<>> handlers_;
+  std::map<std::string, std::size_t, std::less<>> channels_;  ///< places in the index
+  FleetTable fleet_;
+  History history_;
+  std::int64_t roster_session_ = 0;
+  bus::Utime state_utime_ = 0;
+  bus::Utime next_look_ = 0;
+  std::set<std::pair<std::int64_t, std::int64_t>> alarms_;  ///< session and id
+};
+
+Indexer::Indexer(LogIndex& index) : index_(index), held_(index) { KnowAll(); }
+
+template <typename Message>
+void Indexer::Know(const char* name, std::function<void(const Message&)> handler) {
+  handlers_[name] = [handler = std::move(handler)](const LogEvent& event) {
+    const auto message = bus::Decode<Message>(event.data.data(), event.data.size());
+    if (!message || !bus::Valid(*message)) return false;
+    handler(*message);
+    return true;
+  };
+}
+
+template <typename Message>
+void Indexer::KnowChunks(const char* name, std::function<void(const Message&)> handle_whole) {
+  auto assembler =
+      std::make_shared<bus::ChunkAssembler<Message>>([handle_whole](const auto& whole, int missing) {
+        if (missing == 0) handle_whole(whole);
+      });
+  Know<Message>(name, [this, name, assembler](const Message& message) {
+    held_.SeeChunk(name, message, now_, offset_);
+    assembler->Add(message);
+  });
+}
+
+void Indexer::KnowAll() {
+  KnowChunks<fleet_roster_t>(channel::kFleetRoster, [this](const auto& roster) { Hear(roster); });
+  Know<fleet_state_t>(channel::kFleetState, [this](const fleet_state_t& state) {
+    held_.See(state, now_, offset_);
+    state_utime_ = state.utime;
+    fleet_.Take(state, now_);
+  });
+  KnowChunks<formation_status_t>(channel::kFormationStatus, [this](const auto& status) {
+    fleet_.Take(status.formation_id, status.slots);
+  });
+  KnowChunks<proximity_t>(channel::kProximity, [this](const auto& proximity) { fleet_.Take(proximity); });
+  KnowChunks<link_status_t>(channel::kLinkStatus, [this](const auto& links) { fleet_.Take(links); });
+  KnowChunks<alarm_list_t>(channel::kAlarms, [this](const auto& list) { Hear(list); });
+  Know<formation_t>(channel::kFormation, [this](const formation_t& formation) {
+    held_.See(channel::kFormation, std::to_string(formation.formation_id), now_, offset_);
+  });
+  Know<path_t>(channel::kPath, [this](const path_t& path) {
+    held_.See(channel::kPath, std::to_string(path.formation_id), now_, offset_);
+  });
+  Know<heartbeat_t>(channel::kHeartbeat, [this](const heartbeat_t& heartbeat) {
+    held_.See(channel::kHeartbeat, heartbeat.heartbeat_node, now_, offset_);
+  });
+  Know<event_t>(channel::kEvent, [this](const event_t& event) { Hear(event); });
+  Know<ack_t>(channel::kAck);
+  Know<fleet_command_t>(channel::kCmdFleet);
+  Know<link_command_t>(channel::kCmdLink);
+  Know<payload_command_t>(channel::kCmdPayload);
+  Know<simulation_command_t>(channel::kCmdSimulation);
+  Know<formation_command_t>(channel::kCmdFormation);
+  Know<path_command_t>(channel::kCmdPath);
+  Know<alarm_command_t>(channel::kCmdAlarm);
+}
+
+IndexedFlight& Indexer::Flight() {
+  if (index_.flights.empty()) index_.flights.push_back({.utime = now_});
+  return index_.flights.back();
+}
+
+void Indexer::Hear(const fleet_roster_t& roster) {
+  if (!index_.flights.empty() && index_.flights.back().start_utime != roster.start_utime) {
+    Flight().samples = history_.samples();
+    history_.Clear();
+    index_.flights.push_back({.utime = now_});
+  }
+  IndexedFlight& flight = Flight();
+  flight.start_utime = roster.start_utime;
+  flight.scenario = Cut(roster.scenario);
+  flight.vehicles = std::max(flight.vehicles, roster.num_vehicles);
+  if (roster.session_id != roster_session_) fleet_.StartAnew();
+  roster_session_ = roster.session_id;
+  fleet_.Take(roster.vehicles);
+}
+
+void Indexer::Hear(const event_t& event) {
+  if (index_.told.size() >= LogIndex::kMostListed) return;
+  index_.told.push_back({now_, offset_, event.severity, Cut(event.code), Cut(event.text)});
+}
+
+void Indexer::Hear(const alarm_list_t& list) {
+  for (const alarm_t& alarm : list.alarms) {
+    if (alarm.state == alarm_t::OVER || alarms_.size() >= LogIndex::kMostListed) continue;
+    if (!alarms_.emplace(list.session_id, alarm.id).second) continue;
+    index_.alarms.push_back(
+        {now_, list.session_id, alarm.id, alarm.severity, Cut(alarm.condition), Cut(alarm.text)});
+  }
+}
+
+void Indexer::Count(const LogEvent& event, bool good) {
+  auto place = channels_.find(event.channel);
+  if (place == channels_.end()) {
+    const bool too_many = channels_.size() >= kMostChannels;
+    const std::string name = too_many ? "(others)" : std::string(event.channel);
+    place = channels_.emplace(name, index_.channels.size()).first;
+    if (place->second == index_.channels.size()) {
+      index_.channels.push_back({.name = name, .known = handlers_.contains(name), .first = now_});
+    }
+  }
+  ChannelCount& count = index_.channels[place->second];
+  ++count.count;
+  count.bytes += static_cast<std::int64_t>(event.data.size());
+  count.undecodable += good ? 0 : 1;
+  count.last = now_;
+}
+
+void Indexer::TellDamage(std::uint64_t offset, std::uint64_t bytes, std::string reason, bus::Utime utime) {
+  if (index_.damage.size() < LogIndex::kMostListed) {
+    index_.damage.push_back({utime, offset, bytes, std::move(reason)});
+  }
+}
+
+void Indexer::Take(const LogEvent& event) {
+  const bus::Utime shift = clock_.shift();
+  now_ = clock_.Read(event.utime);
+  offset_ = event.offset;
+  if (index_.points.empty() || offset_ >= index_.points.back().offset + kPointEveryBytes) {
+    index_.points.push_back({now_, offset_, clock_.shift()});
+  }
+  if (index_.events++ == 0) index_.first = now_;
+  index_.last = now_;
+  if (clock_.shift() != shift) TellDamage(offset_, 0, "the clock leaps here", now_);
+  const auto handler = handlers_.find(event.channel);
+  Count(event, handler == handlers_.end() || handler->second(event));
+  if (now_ < next_look_) return;
+  next_look_ = now_ + kLookPeriod;
+  const bus::Utime start = index_.flights.empty() ? 0 : index_.flights.back().start_utime;
+  if (start > 0 && state_utime_ >= start) history_.Take(fleet_, bus::ToSeconds(state_utime_ - start), now_);
+}
+
+void Indexer::Finish(const LogReader& reader) {
+  held_.Finish();
+  if (!index_.flights.empty()) Flight().samples = history_.samples();
+  // Damage has the raw time of the event before it; where that lies is known better.
+  for (const Damage& damage : reader.damage()) {
+    const auto after = std::ranges::upper_bound(index_.points, damage.offset, {}, &SeekPoint::offset);
+    const bus::Utime raw = damage.last_utime.value_or(index_.first);
+    const bus::Utime utime = raw + (after == index_.points.begin() ? 0 : std::prev(after)->shift);
+    TellDamage(damage.offset, damage.bytes, damage.reason, std::clamp(utime, index_.first, index_.last));
+  }
+  std::ranges::stable_sort(index_.damage, {}, &IndexedDamage::utime);
+  index_.damaged_bytes = reader.damaged_bytes();
+  const auto tell_if = [&](bool more, const char* what) {
+    if (more) index_.damage.push_back({index_.last, 0, 0, what});
+  };
+  tell_if(index_.told.size() >= LogIndex::kMostListed, "there are more EVENTs than are listed");
+  tell_if(index_.alarms.size() >= LogIndex::kMostListed, "there are more alarms than are listed");
+  tell_if(reader.damage_count() > reader.damage().size(), "there is more damage than is listed");
+}
+
+}  // namespace
+
+std::optional<LogIndex> IndexLog(const LogFile& log, const std::function<bool(double)>& go_on) {
+  LogIndex index;
+  index.bytes = log.bytes();
+  Indexer indexer(index);
+  LogReader reader(log);
+  std::uint64_t tell_at = 0;
+  while (const auto event = reader.Next()) {
+    indexer.Take(*event);
+    if (event->offset < tell_at) continue;
+    tell_at = event->offset + kTellEveryBytes;
+    if (!go_on(static_cast<double>(event->offset) / static_cast<double>(log.bytes()))) return std::nullopt;
+  }
+  indexer.Finish(reader);
+  return index;
+}
+
+}  // namespace skein::recording
