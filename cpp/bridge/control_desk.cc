@@ -191,6 +191,13 @@ std::string ControlDesk::WhyNot(int person) const {
   return holder_ == 0 ? "nobody holds control: take it first" : NameOf(holder_) + " holds control";
 }
 
+int ControlDesk::Who(const std::string& token) const {
+  const auto found = std::ranges::find_if(people_, [&](const auto& entry) {
+    return !token.empty() && entry.second.token == token && !entry.second.dropped;
+  });
+  return found == people_.end() ? 0 : found->first;
+}
+
 Json ControlDesk::View(int person, Time now) const {
   Json view = {{"type", "control"}, {"you", person}, {"holder", holder_}, {"people", Json::array()}};
   const auto you = people_.find(person);

@@ -63,6 +63,9 @@ class ControlDesk {
   /// Why somebody may not command now, "" when he may.
   std::string WhyNot(int person) const;
 
+  /// Who is there with this token; 0: nobody.
+  int Who(const std::string& token) const;
+
   /// The message "control" for one of them; 0: for somebody who has not introduced himself.
   Json View(int person, Time now) const;
 

@@ -6,6 +6,7 @@
 #include "bridge/byte_range.h"
 #include "bridge/history_query.h"
 #include "bridge/json_messages.h"
+#include "bridge/url.h"
 #include "config/scenario.h"
 
 namespace skein::bridge {
@@ -25,12 +26,7 @@ constexpr std::string_view kTileArchive = "/tiles.pmtiles";
 // A reader of PMTiles asks for kilobytes; more than this is sent to nobody at once.
 constexpr std::uint64_t kMaxPartBytes = 4u << 20;
 
-std::string_view View(boost::beast::string_view text) { return {text.data(), text.size()}; }
-
-std::string_view Path(const HttpHead& head) {
-  const std::string_view target = View(head.target());
-  return target.substr(0, target.find('?'));
-}
+std::string_view Path(const HttpHead& head) { return PathOf(View(head.target())); }
 
 bool Reads(const HttpHead& head) {
   return head.method() == http::verb::get || head.method() == http::verb::head;
@@ -73,12 +69,18 @@ std::string ScenariosJson() {
 
 Rights RightsOf(const HttpHead& /*head*/) { return {}; }
 
-HttpRouter::HttpRouter(const RouterOptions& options, Backend backend)
+HttpRouter::HttpRouter(const RouterOptions& options, Backend backend, RecordingsRouter::WhyNot why_not)
     : access_(options.allowed_hosts),
       files_(options.web_folder),
       tiles_(options.tiles),
       content_security_policy_(ContentSecurityPolicy(options.tile_url)),
-      backend_(std::move(backend)) {}
+      backend_(std::move(backend)),
+      recordings_(
+          options.recordings,
+          [this](status status, std::string_view mime_type, std::string body) {
+            return Make(status, mime_type, std::move(body));
+          },
+          std::move(why_not), backend_.tell) {}
 
 std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::string_view local_address,
                                                  bool upgrade) const {
@@ -104,10 +106,18 @@ std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::stri
     response.set(field::upgrade, "websocket");
     return response;
   }
+  if (upgrade) {
+    const std::string watched = recordings_.Watched(View(head.target()));
+    if (watched.empty() || recordings_.Has(watched)) return std::nullopt;
+    return Plain(status::not_found, "There is no such recording.");
+  }
   const bool posts = path == kCommand || path == kFormationPreview || path == kPathPreview;
-  if (!upgrade && (posts ? head.method() != http::verb::post : !Reads(head))) {
+  const bool deletes = recordings_.Deletes(View(head.target()));
+  const bool fits = posts ? head.method() == http::verb::post
+                          : Reads(head) || (deletes && head.method() == http::verb::delete_);
+  if (!fits) {
     HttpResponse response = Plain(status::method_not_allowed, "Not with this method.");
-    response.set(field::allow, posts ? "POST" : "GET, HEAD");
+    response.set(field::allow, posts ? "POST" : deletes ? "GET, HEAD, DELETE" : "GET, HEAD");
     return response;
   }
   return std::nullopt;
@@ -119,7 +129,9 @@ void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
   const auto respond_json = [this, respond](const std::string& json) {
     respond(Make(status::ok, kJson, json));
   };
-  if (path == "/api/state") {
+  if (recordings_.Concerns(View(request.target()))) {
+    respond(recordings_.Answer(request));
+  } else if (path == "/api/state") {
     backend_.state(respond_json);
   } else if (path == "/api/vehicles") {
     backend_.vehicles(respond_json);
@@ -133,8 +145,8 @@ void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
     Preview(request, gone, std::move(respond));
   } else if (path.starts_with("/api/")) {
     respond(Plain(status::not_found,
-                  "The API has /api/state, /api/vehicles, /api/history, /api/scenarios, /api/command, "
-                  "/api/preview/formation and /api/preview/path."));
+                  "The API has /api/state, /api/vehicles, /api/history, /api/scenarios, /api/recordings, "
+                  "/api/command, /api/preview/formation and /api/preview/path."));
   } else if (path.starts_with(kTiles)) {
     respond(Tile(request));
   } else if (path == kTileArchive) {
@@ -219,10 +231,7 @@ HttpResponse HttpRouter::TileArchive(const HttpRequest& request) const {
 }
 
 void HttpRouter::History(const HttpRequest& request, std::function<void(HttpResponse)> respond) const {
-  const std::string_view target = View(request.target());
-  const std::size_t question = target.find('?');
-  const auto parsed = ParseHistoryQuery(question == std::string_view::npos ? std::string_view()
-                                                                           : target.substr(question + 1));
+  const auto parsed = ParseHistoryQuery(QueryOf(View(request.target())));
   if (const auto* problem = std::get_if<std::string>(&parsed)) {
     return respond(Plain(status::bad_request, *problem));
   }

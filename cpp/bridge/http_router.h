@@ -1,10 +1,5 @@
 #pragma once
 
-// GCC 12 with Boost 1.74 needs <utility> before Boost's own headers.
-#include <utility>
-
-#include <boost/beast/http/message.hpp>
-#include <boost/beast/http/string_body.hpp>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,14 +7,12 @@
 
 #include "bridge/access_rules.h"
 #include "bridge/backend.h"
+#include "bridge/http_types.h"
 #include "bridge/map_tiles.h"
+#include "bridge/recordings_router.h"
 #include "bridge/static_files.h"
 
 namespace skein::bridge {
-
-using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>;
-using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
-using HttpHead = boost::beast::http::request_header<>;
 
 /// What a session may do.
 struct Rights {
@@ -33,14 +26,16 @@ Rights RightsOf(const HttpHead& head);
 struct RouterOptions {
   std::filesystem::path web_folder;
   std::vector<std::string> allowed_hosts;
-  std::string tile_url;           ///< "": none
-  std::optional<MapTiles> tiles;  ///< the operator's own map
+  std::string tile_url;                            ///< "": none
+  std::optional<MapTiles> tiles;                   ///< the operator's own map
+  std::shared_ptr<const Recordings> recordings{};  ///< null: none
 };
 
 /// Answers HTTP requests: the page, the JSON API, and why not.
 class HttpRouter {
  public:
-  HttpRouter(const RouterOptions& options, Backend backend);
+  /// @param why_not why who sends a request may not operate, "" when he may.
+  HttpRouter(const RouterOptions& options, Backend backend, RecordingsRouter::WhyNot why_not);
 
   /// An answer that turns a request away for who sends it or for where to, before its body is read.
   /// @param local_address that the connection came in on. @param upgrade it wants to become a WebSocket.
@@ -51,6 +46,8 @@ class HttpRouter {
   /// what takes long is given up then, and perhaps never answered.
   void Answer(const HttpRequest& request, const Previewer::Gone& gone,
               std::function<void(HttpResponse)> respond) const;
+
+  const RecordingsRouter& recordings() const { return recordings_; }
 
   /// An answer with a sentence in it.
   HttpResponse Plain(boost::beast::http::status status, std::string text) const;
@@ -70,6 +67,7 @@ class HttpRouter {
   std::optional<MapTiles> tiles_;
   std::string content_security_policy_;
   Backend backend_;
+  RecordingsRouter recordings_;
 };
 
 }  // namespace skein::bridge

@@ -24,6 +24,8 @@ class LiveHub {
   /// A text from a browser: a command, or about who may command. Whatever is wrong with it is told in an
   /// "ack".
   void Hear(const std::shared_ptr<LiveSession>& session, const std::string& text);
+  /// Why who has this token may not command, "" when he may.
+  std::string WhyNot(const std::string& token) const { return desk_.WhyNot(desk_.Who(token)); }
   /// To be called a few times a second: people who are waited for.
   void Look();
 

@@ -6,14 +6,17 @@
 #include <stdexcept>
 
 #include "bridge/access_rules.h"
+#include "bridge/recording_options.h"
 #include "bridge/static_files.h"
 #include "bridge/web_bridge.h"
 #include "bus/node_main.h"
 
 int main(int argc, char** argv) {
   namespace bridge = skein::bridge;
-  skein::bus::NodeMain node("web-bridge",
-                            "Serves the web app, streams the bus to browsers and takes their commands.");
+  skein::bus::NodeMain node(
+      "web-bridge",
+      "Serves the web app, streams the bus to browsers and takes their commands; serves "
+      "recordings, too.");
   bridge::BridgeOptions options;
   options.web_folder = bridge::DefaultWebFolder(std::filesystem::read_symlink("/proc/self/exe"));
   std::string web_folder;
@@ -51,6 +54,8 @@ int main(int argc, char** argv) {
       ->needs(replay_option)
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  bridge::RecordingOptions recordings;
+  bridge::AddRecordingOptions(node, recordings);
   return node.Run(argc, argv, [&](skein::bus::Bus& bus, skein::bus::LiveExecutor& executor) {
     if (!web_folder.empty()) {
       options.web_folder = web_folder;
@@ -66,6 +71,7 @@ int main(int argc, char** argv) {
       options.hello.replay = {{"kind", "player"}, {"name", replay}, {"speed", replay_speed}};
     options.hello.version = SKEIN_VERSION;
     options.hello.lcm_url = node.lcm_url();
+    bridge::ServeRecordings(recordings, options);
     auto result = std::make_shared<bridge::WebBridge>(bus, executor, options);
     spdlog::info("http://{}:{}", options.listen, result->port());
     return result;

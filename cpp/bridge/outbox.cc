@@ -5,6 +5,12 @@
 namespace skein::bridge {
 
 bool Outbox::Push(LiveFrame frame) {
+  if (frame.resets) {
+    std::erase_if(frames_, [this](const LiveFrame& other) {
+      if (!other.answer) waiting_bytes_ -= other.bytes->size();
+      return !other.answer;
+    });
+  }
   const std::size_t size = frame.bytes->size();
   const auto same = frame.key.empty()
                         ? frames_.end()

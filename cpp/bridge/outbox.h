@@ -10,7 +10,7 @@ namespace skein::bridge {
 
 /// What waits to be sent to one browser. A browser that is slow skips: a frame takes the place of one with
 /// the same key that still waits, so that it gets the newest, and every key has its turn. Frames without a
-/// key are never dropped.
+/// key are never dropped, unless a reset comes behind them.
 class Outbox {
  public:
   /// False, and nothing is kept, when more than kMaxBytes would wait: this browser cannot follow.

@@ -14,7 +14,8 @@ WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOpt
       gateway_(bus),
       events_(bus),
       server_(web_context_, options.listen, options.port,
-              {options.web_folder, options.allowed_hosts, options.hello.tile_url, options.tiles},
+              {options.web_folder, options.allowed_hosts, options.hello.tile_url, options.tiles,
+               options.make_recordings ? options.make_recordings() : nullptr},
               MakeBackend(executor, options.hello.replay != nullptr)),
       port_(server_.port()),
       web_thread_([this] { web_context_.run(); }) {}

@@ -6,6 +6,8 @@
 #include <boost/asio/io_context.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -15,6 +17,7 @@
 #include "bridge/command_gateway.h"
 #include "bridge/map_tiles.h"
 #include "bridge/previewer.h"
+#include "bridge/recordings.h"
 #include "bridge/web_server.h"
 #include "bus/events.h"
 #include "bus/live_executor.h"
@@ -27,6 +30,8 @@ struct BridgeOptions {
   std::filesystem::path web_folder;
   std::vector<std::string> allowed_hosts;
   std::optional<MapTiles> tiles;
+  /// Makes what serves recordings, owned by the bridge alone (its threads end with it); none: there are none.
+  std::function<std::shared_ptr<const Recordings>()> make_recordings;
   HelloInfo hello;
 };
 

@@ -14,6 +14,7 @@
 #include <boost/beast/http/write.hpp>
 #include <exception>
 
+#include "bridge/file_download.h"
 #include "bus/transport.h"
 
 namespace skein::bridge {
@@ -98,7 +99,11 @@ asio::awaitable<void> Close(beast::tcp_stream& stream) {
 
 WebServer::WebServer(asio::io_context& context, const std::string& address, std::uint16_t port,
                      const RouterOptions& options, const Backend& backend)
-    : context_(context), acceptor_(Listen(context, address, port)), router_(options, backend), hub_(backend) {
+    : context_(context),
+      acceptor_(Listen(context, address, port)),
+      recordings_(options.recordings),
+      router_(options, backend, [this](const HttpHead& head) { return WhyNot(head); }),
+      hub_(backend) {
   asio::co_spawn(context_, AcceptAll(), asio::detached);
   asio::co_spawn(context_, LookAfterPeople(), asio::detached);
 }
@@ -168,6 +173,15 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
     }
     const HttpRequest request = parser.release();
     const bool whole = !response && !error;
+    if (whole) {
+      if (auto download = router_.recordings().FindFile(request)) {
+        keep_alive = request.keep_alive();
+        download->head.keep_alive(keep_alive);
+        error = co_await SendFile(stream, *download, request.method() == http::verb::head);
+        if (error) co_return;
+        continue;
+      }
+    }
     if (error) {
       const auto status = StatusOf(error);
       if (!status) break;
@@ -219,12 +233,38 @@ asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, Tcp:
 asio::awaitable<void> WebServer::ServeLive(beast::tcp_stream stream, HttpRequest request) {
   const auto session = std::make_shared<LiveSession>(std::move(stream));
   session->rights = RightsOf(request);
+  const std::string recording = router_.recordings().Watched(View(request.target()));
   const bool accepted = co_await session->Accept(request);
   if (!accepted) co_return;
+  if (!recording.empty()) {
+    co_await ServeRecording(session, recording);
+    co_return;
+  }
   hub_.Join(session);
   co_await session->Run(
       [this](const std::shared_ptr<LiveSession>& from, const std::string& text) { hub_.Hear(from, text); });
   hub_.Leave(session);
+}
+
+asio::awaitable<void> WebServer::ServeRecording(const std::shared_ptr<LiveSession>& session,
+                                                const std::string& name) {
+  const auto hear = recordings_->watch(name, [this, weak = std::weak_ptr(session)](const LiveFrame& frame) {
+    asio::post(context_, [weak, frame] {
+      if (const auto session = weak.lock()) session->Send(frame);
+    });
+  });
+  if (!hear) {
+    spdlog::warn("too many browsers look at recordings: one is turned away");
+    co_return;
+  }
+  co_await session->Run(
+      [&hear](const std::shared_ptr<LiveSession>&, const std::string& text) { hear(text); });
+}
+
+std::string WebServer::WhyNot(const HttpHead& head) const {
+  if (!RightsOf(head).operate) return "this session may only look";
+  if (recordings_ && !recordings_->live_bus) return "";
+  return hub_.WhyNot(std::string(View(head["Control-Token"])));
 }
 
 }  // namespace skein::bridge

@@ -35,9 +35,13 @@ class WebServer {
   boost::asio::awaitable<void> Serve(Tcp::socket socket, std::shared_ptr<void> place);
   boost::asio::awaitable<HttpResponse> Answer(const HttpRequest& request, Tcp::socket& from);
   boost::asio::awaitable<void> ServeLive(boost::beast::tcp_stream stream, HttpRequest request);
+  boost::asio::awaitable<void> ServeRecording(const std::shared_ptr<LiveSession>& session,
+                                              const std::string& name);
+  std::string WhyNot(const HttpHead& head) const;
 
   boost::asio::io_context& context_;
   Tcp::acceptor acceptor_;
+  std::shared_ptr<const Recordings> recordings_;  ///< null: none
   HttpRouter router_;
   LiveHub hub_;
 };

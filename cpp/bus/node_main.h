@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "bus/bus.h"
 #include "bus/live_executor.h"
@@ -35,6 +36,8 @@ class NodeMain {
   /// For the options of this executable.
   CLI::App& app() { return app_; }
   const std::string& lcm_url() const { return lcm_url_; }
+  /// For an option that replaces --lcm-url.
+  void SetLcmUrl(std::string url) { lcm_url_ = std::move(url); }
 
   /// Makes the node, runs until SIGINT or SIGTERM, destroys it. An exception of `make_node` is printed; it
   /// means a bad file or option (exit code 2), a StartError something outside of the program (1).

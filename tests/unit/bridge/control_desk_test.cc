@@ -41,6 +41,16 @@ TEST_F(ControlDeskTest, TheFirstHasControlAndTheOthersAreRefusedByHisName) {
   EXPECT_EQ(told_, (std::vector<std::string>{"control_taken: Ada has taken control"}));
 }
 
+TEST_F(ControlDeskTest, KnowsWhoIsThereByHisToken) {
+  const int ada = Enter("Ada");
+  const std::string token = TokenOf(ada);
+  EXPECT_EQ(desk_.Who(token), ada);
+  EXPECT_EQ(desk_.Who(token + "x"), 0);
+  EXPECT_EQ(desk_.Who(""), 0);
+  desk_.Leave(ada, now_);
+  EXPECT_EQ(desk_.Who(token), 0);
+}
+
 TEST_F(ControlDeskTest, WhoOnlyLooksLeavesControlFree) {
   const int ada = Enter("Ada", false);
   EXPECT_EQ(Holder(), 0);

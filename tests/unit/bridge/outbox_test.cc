@@ -49,6 +49,22 @@ TEST(Outbox, NeverDropsFramesWithoutAKey) {
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(Next(outbox), std::to_string(i));
 }
 
+TEST(Outbox, DropsWhatAResetMakesWorthlessButNoAnswer) {
+  Outbox outbox;
+  outbox.Push(TextFrame("event before"));
+  outbox.Push(BinaryFrame("motion before", "motion"));
+  LiveFrame answer = TextFrame("ack");
+  answer.answer = true;
+  outbox.Push(answer);
+  outbox.Push(ResetFrame());
+  outbox.Push(BinaryFrame("motion", "motion"));
+  EXPECT_EQ(Next(outbox), "ack");
+  EXPECT_EQ(Next(outbox), R"({"type":"reset"})");
+  EXPECT_EQ(Next(outbox), "motion");
+  EXPECT_EQ(Next(outbox), "nothing");
+  EXPECT_EQ(outbox.waiting_bytes(), 0u);
+}
+
 TEST(Outbox, RefusesMoreThanFourMebibytesButTakesAReplacement) {
   Outbox outbox;
   EXPECT_TRUE(outbox.Push(TextFrame(std::string(Outbox::kMaxBytes, 'x'), "big")));
