@@ -29,15 +29,17 @@ RecordedFlight::RecordedFlight(std::vector<Part> parts, std::vector<std::string>
 bus::Utime RecordedFlight::start() const { return parts_.front().index->first + parts_.front().shift; }
 bus::Utime RecordedFlight::end() const { return parts_.back().index->last + parts_.back().shift; }
 
-std::vector<RecordedFlight::Place> RecordedFlight::HeldAt(bus::Utime utime, bus::Utime since) const {
+std::vector<RecordedFlight::Place> RecordedFlight::HeldAt(bus::Utime utime) const {
   std::map<std::string, Place> last;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const auto& index = *parts_[i].index;
     for (const HeldMessage& held : index.held) {
       const bus::Utime at = held.utime + parts_[i].shift;
-      if (at >= since || at > utime) break;
+      if (at > utime) break;
       const std::string& stream = index.streams[held.stream];
-      last[stream] = {i, held.offset, at, held.messages, stream.substr(0, stream.find('/'))};
+      std::string channel = stream.substr(0, stream.find('/'));
+      if (utime - at <= LeadOf(channel)) continue;
+      last[stream] = {i, held.offset, at, held.messages, std::move(channel)};
     }
   }
   std::vector<Place> places;

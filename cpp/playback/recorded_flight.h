@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "recording/log_clock.h"
@@ -47,8 +48,12 @@ class RecordedFlight {
     std::string channel;  ///< of those
   };
 
-  /// What was still shown at `utime` though it was last said before `since`, in order of time.
-  std::vector<Place> HeldAt(bus::Utime utime, bus::Utime since) const;
+  /// What was still shown at `utime` though it was last said long before, in order of time: more than
+  /// LeadOf() its channel.
+  std::vector<Place> HeldAt(bus::Utime utime) const;
+
+  /// Whatever is repeated on a channel, and not held, is found within so much before any moment.
+  static bus::Utime LeadOf(std::string_view channel) { return recording::LongestPause(channel) * 7 / 5; }
 
   /// The last EVENTs before `utime`, in order of time.
   std::vector<Place> EventsBefore(bus::Utime utime, std::size_t most) const;

@@ -4,6 +4,7 @@
 #include <map>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "bus/channels.h"
 
@@ -24,6 +25,11 @@ bus::Utime LastsFor(std::string_view name) {
   return known == kLasts.end() ? INT64_MAX : known->second;
 }
 
+// So much before a moment is looked at for it: what is repeated at all has come by then, and a node that has
+// not is silent.
+constexpr bus::Utime kLead = bus::kSecond * 7 / 2;
+static_assert(kLead > bridge::BusMirror::kSilentAfter);
+
 /// Nobody hears commands here, and CMD_FLEET is half of a log.
 bool IsHeard(std::string_view name) { return !name.starts_with("CMD_"); }
 
@@ -38,26 +44,25 @@ Stage::Stage(bus::Utime start, const bridge::HelloInfo& hello, bridge::BusMirror
 std::unique_ptr<Stage> Stage::At(const RecordedFlight& flight, bus::Utime utime,
                                  const bridge::HelloInfo& hello, bridge::BusMirror::Sink sink) {
   const bus::Utime from = std::max(flight.start(), utime - kLead);
-  const auto events = flight.EventsBefore(from, bridge::BusMirror::kMaxEvents);
-  const auto held = flight.HeldAt(utime, from);
-  bus::Utime start = from;
-  for (const auto* places : {&events, &held}) {
-    if (!places->empty()) start = std::min(start, places->front().utime);
-  }
+  std::vector<RecordedFlight::Place> before = flight.EventsBefore(from, bridge::BusMirror::kMaxEvents);
+  const auto held = flight.HeldAt(utime);
+  before.insert(before.end(), held.begin(), held.end());
+  std::ranges::stable_sort(before, {}, &RecordedFlight::Place::utime);
+  const bus::Utime start = before.empty() ? from : std::min(from, before.front().utime);
+
   auto stage = std::make_unique<Stage>(start, hello, std::move(sink));
-  auto event = events.begin();
-  for (const RecordedFlight::Place& place : held) {
-    for (; event != events.end() && event->utime <= place.utime; ++event) stage->FeedFrom(flight, *event);
-    stage->FeedFrom(flight, place);
-  }
-  for (; event != events.end(); ++event) stage->FeedFrom(flight, *event);
+  auto place = before.begin();
+  for (; place != before.end() && place->utime < from; ++place) stage->FeedFrom(flight, *place);
   stage->executor_.SkipTo(from);
-  stage->cursor_.emplace(flight, from);
-  while (stage->cursor_->current() && stage->cursor_->current()->utime <= utime) {
-    stage->executor_.RunUntil(std::max(stage->now(), stage->cursor_->current()->utime));
-    stage->Feed(stage->cursor_->current()->event);
-    stage->cursor_->Advance();
+  Cursor& cursor = stage->cursor_.emplace(flight, from);
+  for (; cursor.current() && cursor.current()->utime <= utime; cursor.Advance()) {
+    const TimedEvent& at = *cursor.current();
+    for (; place != before.end() && place->utime <= at.utime; ++place) stage->FeedFrom(flight, *place);
+    if (utime - at.utime > RecordedFlight::LeadOf(at.event.channel)) continue;
+    stage->executor_.RunUntil(std::max(stage->now(), at.utime));
+    stage->Feed(at.event);
   }
+  for (; place != before.end(); ++place) stage->FeedFrom(flight, *place);
   stage->executor_.RunUntil(utime);
   stage->prepared_ = true;
   return stage;

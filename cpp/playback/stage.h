@@ -29,10 +29,6 @@ class Stage {
   const bridge::BusMirror& mirror() const { return mirror_; }
   bus::Utime now() const { return executor_.Now(); }
 
-  /// So much before a moment is replayed for it: what is repeated at all has come by then
-  /// (LogIndex::kPause), and a node that has not is silent (BusMirror::kSilentAfter).
-  static constexpr bus::Utime kLead = 3 * bus::kSecond + bus::kSecond / 2;
-
  private:
   void Feed(const recording::LogEvent& event);
   void FeedFrom(const RecordedFlight& flight, const RecordedFlight::Place& place);

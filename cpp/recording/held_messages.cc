@@ -6,18 +6,25 @@
 
 namespace skein::recording {
 
+bus::Utime LongestPause(std::string_view channel) {
+  if (channel == bus::channel::kFleetState) return bus::kSecond / 2;           // 20 Hz
+  if (channel == bus::channel::kFormationStatus) return bus::kSecond * 3 / 4;  // 5 Hz
+  return bus::kSecond * 5 / 2;                                                 // 1 Hz
+}
+
 HeldMessages::Stream& HeldMessages::Find(const std::string& name) {
   const auto known = streams_.find(name);
   if (known != streams_.end()) return known->second;
   if (streams_.size() >= kMostStreams) return nobody_;
   Stream& stream = streams_[name];
   stream.last.stream = static_cast<std::uint32_t>(index_.streams.size());
+  stream.longest_pause = LongestPause(name.substr(0, name.find('/')));
   index_.streams.push_back(name);
   return stream;
 }
 
 void HeldMessages::Begin(Stream& stream, bus::Utime utime, std::uint64_t offset) {
-  if (stream.seen && utime - stream.last.utime > LogIndex::kPause) Keep(stream.last);
+  if (stream.seen && utime - stream.last.utime > stream.longest_pause) Keep(stream.last);
   stream.last.utime = utime;
   stream.last.offset = offset;
   stream.last.messages = 1;

@@ -45,6 +45,7 @@ class HeldMessages {
   using SetId = std::pair<std::int64_t, std::int64_t>;
   struct Stream {
     HeldMessage last;
+    bus::Utime longest_pause = 0;
     SetId set;
     bool seen = false;
   };
@@ -60,7 +61,7 @@ class HeldMessages {
   LogIndex& index_;
   std::unordered_map<std::string, Stream> streams_;
   std::unordered_map<std::int32_t, Stream*> vehicles_;
-  Stream nobody_{{.stream = UINT32_MAX}, {}, false};  ///< stands for those that are too many
+  Stream nobody_{{.stream = UINT32_MAX}, 0, {}, false};  ///< stands for those that are too many
 };
 
 }  // namespace skein::recording

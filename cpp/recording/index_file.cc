@@ -17,7 +17,7 @@ namespace skein::recording {
 namespace {
 
 // Raise it whenever what an index holds, or how it is found, changes.
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::uint32_t kMagic = 0x58444E49;  // "INDX"
 
 }  // namespace

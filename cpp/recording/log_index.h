@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bus/executor.h"
@@ -51,8 +52,11 @@ struct RaisedAlarm {
   std::string text;
 };
 
-/// The last message (or set of chunks) of something that is repeated, before it paused for more than
-/// LogIndex::kPause or for good: what receivers go on showing, and what is no longer found just before.
+/// What is repeated on a channel comes again within this, unless its sender is gone or cannot be heard.
+bus::Utime LongestPause(std::string_view channel);
+
+/// The last message (or set of chunks) of something that is repeated, before it paused for longer than that,
+/// or for good: what receivers go on showing, and what is no longer found just before a later moment.
 struct HeldMessage {
   std::uint32_t stream = 0;  ///< index of LogIndex::streams
   std::int32_t messages = 1;
@@ -78,9 +82,6 @@ struct IndexedDamage {
 
 /// What is where in one log file, found in one pass. Times are those of LogClock; lists are in order of time.
 struct LogIndex {
-  /// What is repeated at all comes again within this, unless its sender is gone.
-  static constexpr bus::Utime kPause = 2 * bus::kSecond + bus::kSecond / 2;
-
   std::uint64_t bytes = 0;  ///< of the log up to where it was read
   std::int64_t events = 0;  ///< messages of any channel
   bus::Utime first = 0;
