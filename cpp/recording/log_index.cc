@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <skein/ack_t.hpp>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "bus/validate.h"
 #include "recording/held_messages.h"
 #include "recording/log_clock.h"
+#include "recording/message_types.h"
 
 namespace skein::recording {
 namespace {
@@ -54,7 +54,13 @@ class Indexer {
   void Hear(const event_t& event);
   void Hear(const alarm_list_t& list);
   IndexedFlight& Flight();
-  void Count(const LogEvent& event, bool good);
+  /// What a message is good for, and hears it.
+  struct Verdict {
+    bool known = false;  ///< of a type of Skein's, or on a channel of its own
+    bool good = true;    ///< as far as we know
+  };
+  Verdict Judge(const LogEvent& event) const;
+  void Count(const LogEvent& event, Verdict verdict);
   void TellDamage(std::uint64_t offset, std::uint64_t bytes, std::string reason, bus::Utime utime);
 
   LogIndex& index_;
@@ -119,14 +125,6 @@ void Indexer::KnowAll() {
     held_.See(channel::kHeartbeat, heartbeat.heartbeat_node, now_, offset_);
   });
   Know<event_t>(channel::kEvent, [this](const event_t& event) { Hear(event); });
-  Know<ack_t>(channel::kAck);
-  Know<fleet_command_t>(channel::kCmdFleet);
-  Know<link_command_t>(channel::kCmdLink);
-  Know<payload_command_t>(channel::kCmdPayload);
-  Know<simulation_command_t>(channel::kCmdSimulation);
-  Know<formation_command_t>(channel::kCmdFormation);
-  Know<path_command_t>(channel::kCmdPath);
-  Know<alarm_command_t>(channel::kCmdAlarm);
 }
 
 IndexedFlight& Indexer::Flight() {
@@ -163,20 +161,28 @@ void Indexer::Hear(const alarm_list_t& list) {
   }
 }
 
-void Indexer::Count(const LogEvent& event, bool good) {
+Indexer::Verdict Indexer::Judge(const LogEvent& event) const {
+  const auto handler = handlers_.find(event.channel);
+  if (handler != handlers_.end()) return {true, handler->second(event)};
+  const MessageType* type = TypeOf(event.data);
+  return {type != nullptr, !type || type->is_good(event.data)};
+}
+
+void Indexer::Count(const LogEvent& event, Verdict verdict) {
   auto place = channels_.find(event.channel);
   if (place == channels_.end()) {
     const bool too_many = channels_.size() >= kMostChannels;
     const std::string name = too_many ? "(others)" : std::string(event.channel);
     place = channels_.emplace(name, index_.channels.size()).first;
     if (place->second == index_.channels.size()) {
-      index_.channels.push_back({.name = name, .known = handlers_.contains(name), .first = now_});
+      index_.channels.push_back({.name = name, .first = now_});
     }
   }
   ChannelCount& count = index_.channels[place->second];
   ++count.count;
   count.bytes += static_cast<std::int64_t>(event.data.size());
-  count.undecodable += good ? 0 : 1;
+  count.undecodable += verdict.good ? 0 : 1;
+  count.known |= verdict.known;
   count.last = now_;
 }
 
@@ -196,8 +202,7 @@ void Indexer::Take(const LogEvent& event) {
   if (index_.events++ == 0) index_.first = now_;
   index_.last = now_;
   if (clock_.shift() != shift) TellDamage(offset_, 0, "the clock leaps here", now_);
-  const auto handler = handlers_.find(event.channel);
-  Count(event, handler == handlers_.end() || handler->second(event));
+  Count(event, Judge(event));
   if (now_ < next_look_) return;
   next_look_ = now_ + kLookPeriod;
   const bus::Utime start = index_.flights.empty() ? 0 : index_.flights.back().start_utime;

@@ -25,7 +25,7 @@ struct ChannelCount {
   std::int64_t count = 0;
   std::int64_t bytes = 0;        ///< of the messages themselves
   std::int64_t undecodable = 0;  ///< of a known channel: what its receivers would refuse
-  bool known = false;            ///< Skein's own
+  bool known = false;            ///< a type of Skein's was on it, or it is one of its own
   bus::Utime first = 0;
   bus::Utime last = 0;
 };

@@ -113,7 +113,8 @@ class Flight:
         self.recorder = node("flight-recorder", "--folder", str(self.logs), *scenario)
         self.simulator = node("fleet-simulator", *scenario)
         self.nodes = [
-            node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist"), *tiles),
+            node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist"),
+                 "--logs", str(self.logs), *tiles),
             node("collision-monitor", *scenario),
             node("formation-controller", *scenario, "--state-file", str(self.folder / "formation-controller.state")),
             self.simulator,
