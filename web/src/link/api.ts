@@ -26,6 +26,10 @@ export class Api {
     return response.json() as Promise<T>;
   }
 
+  async delete<T>(path: string, headers: Record<string, string>): Promise<T> {
+    return (await this.fetch(path, { method: "DELETE", headers })).json() as Promise<T>;
+  }
+
   private async fetch(path: string, options: RequestInit): Promise<Response> {
     let response: Response;
     try {

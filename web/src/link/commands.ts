@@ -1,4 +1,5 @@
 import type { Ack, CommandBodies, CommandChannel, ControlBody } from "./messages";
+import type { PlaybackBody } from "./recording_messages";
 
 export interface Outcome {
   accepted: boolean;
@@ -24,6 +25,11 @@ export class Commands {
   /** About who may command: to the bridge itself. */
   control(body: ControlBody): Promise<Outcome> {
     return this.sendWithId({ type: "control", ...body });
+  }
+
+  /** About what is played of a recording: to the bridge itself. */
+  playback(body: PlaybackBody): Promise<Outcome> {
+    return this.sendWithId({ type: "playback", ...body });
   }
 
   private sendWithId(message: object): Promise<Outcome> {

@@ -2,6 +2,7 @@
 
 import type { ControlMessage } from "../control/people";
 import type { Replay } from "../state/replay";
+import type { PlaybackMessage, RecordingsServed, Reset } from "./recording_messages";
 
 export interface Hello {
   type: "hello";
@@ -14,6 +15,8 @@ export interface Hello {
   tiles: LocalTiles | null;
   /** Null, or left out by an older bridge: live. */
   replay?: Replay | null;
+  /** Null, or left out: none are served. */
+  recordings?: RecordingsServed | null;
 }
 
 export type LocalTiles =
@@ -238,6 +241,8 @@ export type ServerMessage =
   | Heartbeat
   | Ack
   | BusHealth
+  | PlaybackMessage
+  | Reset
   | ControlMessage;
 
 export interface LinkBody {

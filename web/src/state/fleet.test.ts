@@ -34,9 +34,25 @@ test("frames whose time stands still are no news", () => {
   const fleet = new Fleet();
   fleet.take(motionFrame([7], { utime: 5e6 }), 1000);
   fleet.take(motionFrame([7], { utime: 5e6 }), 2000);
-  expect(fleet.arrival_ms).toBe(1000);
+  expect(fleet.sinceMotion_ms(2500)).toBe(1500);
   fleet.take(motionFrame([7], { utime: 6e6 }), 3000);
-  expect(fleet.arrival_ms).toBe(3000);
+  expect(fleet.sinceMotion_ms(3500)).toBe(500);
+});
+
+test("a recording carries its UAVs on as fast as it is played, back when it goes backwards", () => {
+  const fleet = new Fleet();
+  const east_m = (now_ms: number) => fleet.placeAt(0, now_ms).east_m;
+  fleet.pace.set(4, 0);
+  fleet.take(motionFrame([7], { speed_m_s: f32(50) }), 1000);
+  fleet.take(statusFrame([7], { downlink_age_s: f32(1) }), 1000);
+  expect(east_m(1100)).toBeCloseTo(20, 3);
+  expect(fleet.downlinkAge_s(7, 1100)).toBeCloseTo(1.4, 6);
+  fleet.pace.set(0, 1100); // paused: it stays where it is
+  expect(east_m(90_000)).toBeCloseTo(20, 3);
+  expect(fleet.sinceMotion_ms(90_000)).toBeCloseTo(400, 6);
+  fleet.pace.set(-1, 90_000);
+  fleet.take(motionFrame([7], { utime: 1e15 - 1, speed_m_s: f32(50) }), 90_000);
+  expect(east_m(90_500)).toBeCloseTo(-25, 3);
 });
 
 test("a lost UAV is where the monitor thinks it is, and flies on level between two of its reports", () => {

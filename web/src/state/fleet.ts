@@ -3,6 +3,7 @@
  * Views look UAVs up by id and read the columns; they are told when to look by the map's frame clock or by the store's beat.
  */
 import type { Frame, MotionFrame, StatusFrame } from "../link/frames";
+import { Pace, type Moment } from "./pace";
 
 const kEmpty = new Map<number, number>();
 
@@ -22,9 +23,11 @@ export interface Place {
 export class Fleet {
   motion: MotionFrame | null = null;
   status: StatusFrame | null = null;
-  /** When news came (performance.now). */
-  arrival_ms = 0;
-  status_arrival_ms = 0;
+  /** How time on the bus goes on between frames. */
+  readonly pace = new Pace();
+  /** When news came. */
+  private arrival: Moment = this.pace.moment(0);
+  private status_arrival = this.arrival;
   private motion_rows: ReadonlyMap<number, number> = kEmpty;
   private status_rows: ReadonlyMap<number, number> = kEmpty;
 
@@ -32,12 +35,12 @@ export class Fleet {
     if (frame.kind === "motion") {
       this.motion_rows = rowsOf(frame.id, this.motion?.id, this.motion_rows);
       // A frame with the time of the one before says that the bus is silent, not that it was heard.
-      if (frame.utime !== this.motion?.utime) this.arrival_ms = now_ms;
+      if (frame.utime !== this.motion?.utime) this.arrival = this.pace.moment(now_ms);
       this.motion = frame;
     } else {
       this.status_rows = rowsOf(frame.id, this.status?.id, this.status_rows);
       this.status = frame;
-      this.status_arrival_ms = now_ms;
+      this.status_arrival = this.pace.moment(now_ms);
     }
   }
 
@@ -64,11 +67,16 @@ export class Fleet {
     return row >= 0 && this.status !== null && this.status.downlink[row] === kLinkLost;
   }
 
+  /** For how long time on the bus has gone on since the newest motion [ms]; negative when it goes backwards. */
+  sinceMotion_ms(now_ms: number): number {
+    return this.pace.since_ms(this.arrival, now_ms);
+  }
+
   /** For how long what was so at `utime` is to be carried forward [s]. */
   since_s(utime: number, now_ms: number): number {
     const before_frame_s = ((this.motion?.utime ?? utime) - utime) / 1e6;
-    const since_s = before_frame_s + Math.max(0, now_ms - this.arrival_ms) / 1000;
-    return Math.min(Math.max(since_s, 0), kLongestExtrapolation_s);
+    const since_s = before_frame_s + this.sinceMotion_ms(now_ms) / 1000;
+    return Math.min(Math.max(since_s, -kLongestExtrapolation_s), kLongestExtrapolation_s);
   }
 
   /** Time since a UAV was last heard [s], which goes on between frames; -1: never, or not known. */
@@ -83,7 +91,7 @@ export class Fleet {
 
   private carriedOn(age_s: number | undefined, now_ms: number): number {
     if (age_s === undefined || age_s < 0) return -1;
-    return age_s + Math.max(0, now_ms - this.status_arrival_ms) / 1000;
+    return Math.max(0, age_s + this.pace.since_ms(this.status_arrival, now_ms) / 1000);
   }
 
   /**

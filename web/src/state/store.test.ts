@@ -129,3 +129,57 @@ test("answers go to whoever asked", () => {
   store.takeText(JSON.stringify(ack));
   expect(acks).toEqual([ack]);
 });
+
+const playback = (state: string, more: object = {}) => ({
+  type: "playback",
+  state,
+  t_s: 0,
+  duration_s: 100,
+  start_utime: 1000,
+  speed: 1,
+  direction: 1,
+  loop: null,
+  progress: 1,
+  problem: "",
+  ...more,
+});
+
+test("a jump in a recording is shown at once, when the whole picture of the moment is there", () => {
+  const log = { ...kHello, replay: { kind: "log", name: "a.lcm" } };
+  const store = filled(log, kRoster, event(1, 10), event(2, 20), playback("paused", { t_s: 50 }));
+  store.takeFrame(motionFrame([1]), 0);
+  const hello = store.hello.value;
+  for (const message of [{ type: "reset" }, { ...log, utime: 2 }, kRoster, event(1, 10)]) {
+    store.takeText(JSON.stringify(message));
+    expect(store.events.value).toHaveLength(2);
+    expect(store.fleet.motionRow(1)).toBe(0);
+  }
+  store.takeFrame(motionFrame([2]), 0);
+  expect(store.fleet.motionRow(2)).toBe(-1);
+  store.takeText(JSON.stringify(playback("paused", { t_s: 5 })));
+  expect(store.events.value.map((e) => e.event_sequence)).toEqual([1]);
+  expect([store.fleet.motionRow(1), store.fleet.motionRow(2)]).toEqual([-1, 0]);
+  expect(store.playback.value?.t_s).toBe(5);
+  expect(store.hello.value).toBe(hello); // or tiles and curves would be fetched anew with each jump
+});
+
+test("a moment without a fleet shows none", () => {
+  const store = filled(kHello, kRoster);
+  store.takeFrame(motionFrame([1]), 0);
+  for (const message of [{ type: "reset" }, kHello, playback("paused")])
+    store.takeText(JSON.stringify(message));
+  expect(store.fleet.motion).toBeNull();
+});
+
+test("a paused recording is not a silent bus, and its clock stands", () => {
+  const store = filled(kHello, kRoster, playback("playing"));
+  store.connection.value = { kind: "open" };
+  const now_ms = performance.now();
+  store.takeFrame(motionFrame([1], { utime: 5e6 }), now_ms);
+  store.takeText(JSON.stringify(playback("paused")));
+  const then_utime = store.utimeAt(now_ms + 60_000) ?? 0;
+  expect(store.busSilence_s(now_ms + 60_000)).toBeNull();
+  expect(store.utimeAt(now_ms + 120_000)).toBe(then_utime);
+  store.takeText(JSON.stringify(playback("playing")));
+  expect(store.busSilence_s(now_ms + 60_000)).toBeGreaterThan(50); // played on without a frame
+});

@@ -15,6 +15,7 @@ import type {
   Roster,
   ServerMessage,
 } from "../link/messages";
+import type { PlaybackMessage } from "../link/recording_messages";
 import type { ControlMessage } from "../control/people";
 import { Fleet } from "./fleet";
 import { replay } from "./replay";
@@ -51,8 +52,15 @@ export class Store {
   readonly selected_id = computed(() => [...this.selection.value].at(-1) ?? null);
   /** The formation whose path somebody plans: the planner draws its waypoints. */
   readonly planned_id = signal<number | null>(null);
+  /** What is played of a recording; null: nothing. */
+  readonly playback = signal<PlaybackMessage | null>(null);
+  /** When `playback` came (performance.now). */
+  playback_ms = 0;
   /** The time (performance.now), a few times a second: what goes with time or shows `fleet` reads it, and is drawn again. */
   readonly now_ms = signal(performance.now());
+
+  /** What has come of the picture that follows a reset, to be shown at once; null: none is on its way. */
+  private picture: (() => void)[] | null = null;
 
   private readonly callsigns = computed(
     () => new Map(this.roster.value?.vehicles.map((vehicle) => [vehicle.id, vehicle.callsign])),
@@ -65,6 +73,19 @@ export class Store {
 
   takeText(text: string): void {
     const message = JSON.parse(text) as ServerMessage;
+    if (message.type === "reset") {
+      this.picture = [];
+    } else if (this.picture === null) {
+      this.take(message);
+    } else {
+      this.picture.push(() => {
+        this.take(message);
+      });
+      if (message.type === "playback" || message.type === "ack") this.showPicture();
+    }
+  }
+
+  private take(message: ServerMessage): void {
     switch (message.type) {
       case "hello":
         this.startOver(message);
@@ -106,6 +127,11 @@ export class Store {
       case "control":
         this.onControl(message);
         break;
+      case "playback":
+        this.takePlayback(message);
+        break;
+      case "reset":
+        break;
       case "ack":
         this.onAck(message);
         break;
@@ -136,7 +162,11 @@ export class Store {
   }
 
   takeFrame(frame: Frame, now_ms: number): void {
-    this.fleet.take(frame, now_ms);
+    const take = () => {
+      this.fleet.take(frame, now_ms);
+    };
+    if (this.picture === null) take();
+    else this.picture.push(take);
   }
 
   /** Time on the bus now [us], carried on from the newest frame; null before the first. */
@@ -144,7 +174,7 @@ export class Store {
     const motion = this.fleet.motion;
     return motion === null
       ? null
-      : motion.utime + (this.isStale(now_ms) ? 0 : (now_ms - this.fleet.arrival_ms) * 1000);
+      : motion.utime + (this.isStale(now_ms) ? 0 : this.fleet.sinceMotion_ms(now_ms) * 1000);
   }
 
   /** What is on the screen is old: the bridge or the bus is gone. */
@@ -156,17 +186,36 @@ export class Store {
   busSilence_s(now_ms: number): number | null {
     const motion = this.fleet.motion;
     if (motion === null) return null;
-    const silence_ms = now_ms - this.fleet.arrival_ms;
-    return silence_ms > kBusSilence_ms ? silence_ms / 1000 : null;
+    const silence_ms = this.fleet.sinceMotion_ms(now_ms);
+    // In fast motion there is more of the flight between two frames.
+    return silence_ms > kBusSilence_ms * Math.max(1, this.fleet.pace.speed) ? silence_ms / 1000 : null;
   }
 
   callsign(id: number): string {
     return this.callsigns.value.get(id) ?? `UAV ${id}`;
   }
 
+  private showPicture(): void {
+    const picture = this.picture ?? [];
+    this.picture = null;
+    batch(() => {
+      this.events.value = [];
+      this.fleet.clear();
+      for (const take of picture) take();
+    });
+  }
+
+  private takePlayback(playback: PlaybackMessage): void {
+    const now_ms = performance.now();
+    this.fleet.pace.set(playback.state === "playing" ? playback.speed * playback.direction : 0, now_ms);
+    this.playback_ms = now_ms;
+    this.playback.value = playback;
+  }
+
   /** A bridge says hello first, then everything it knows: what it no longer knows is gone. What happened has happened. */
   private startOver(hello: Hello): void {
-    this.hello.value = hello;
+    // With each jump in a recording the same bridge says hello again: whoever looks at it has nothing to do.
+    if (!sameBridge(this.hello.value, hello)) this.hello.value = hello;
     this.hello_ms = performance.now();
     replay.value = hello.replay ?? null;
     this.formations.value = new Map();
@@ -198,6 +247,11 @@ export class Store {
     if (known) return;
     this.events.value = [event, ...this.events.value].sort((a, b) => b.utime - a.utime).slice(0, kMostEvents);
   }
+}
+
+function sameBridge(before: Hello | null, hello: Hello): boolean {
+  if (before === null || hello.replay?.kind !== "log") return false;
+  return JSON.stringify({ ...before, utime: 0 }) === JSON.stringify({ ...hello, utime: 0 });
 }
 
 function withEntry<K, V>(map: ReadonlyMap<K, V>, key: K, value: V): ReadonlyMap<K, V> {
