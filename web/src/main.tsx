@@ -11,10 +11,16 @@ import type { MapAccess } from "./map/map_access";
 import { PayloadRequests } from "./payload/payload_requests";
 import { Shell } from "./shell/shell";
 import type { Station } from "./shell/station";
+import { recordingIn, replay } from "./state/replay";
 import { followTheme } from "./state/settings";
 import { Store } from "./state/store";
+import { Player } from "./timeline/player";
 
 const kBeat_ms = 250;
+
+const recording = recordingIn(location.search);
+const kAsked = recording === null ? "" : `?recording=${encodeURIComponent(recording)}`;
+if (recording !== null) replay.value = { kind: "log", name: recording };
 
 const commands = new Commands((text) => connection.send(text));
 const control = new Control(commands);
@@ -27,12 +33,13 @@ const store = new Store(
   },
 );
 const connection = new Connection(
-  () => new WebSocket(new URL("live", document.baseURI.replace(/^http/, "ws"))),
+  () => new WebSocket(new URL(`live${kAsked}`, document.baseURI.replace(/^http/, "ws"))),
   {
     onState(state) {
       if (state.kind === "waiting") commands.connectionLost();
       store.connection.value = state;
-      if (state.kind === "open") control.join();
+      // In a recording there is nothing to command.
+      if (state.kind === "open" && recording === null) control.join();
     },
     onText(text) {
       store.takeText(text);
@@ -50,12 +57,14 @@ setInterval(() => {
 }, kBeat_ms);
 connection.start();
 
+const api = new Api(document.baseURI);
 const station: Station = {
   store,
   commands,
   control,
-  api: new Api(document.baseURI),
+  api,
   payloads: new PayloadRequests(store, commands),
+  player: new Player(store, commands, api),
   map: signal<MapAccess | null>(null),
   retry: () => {
     connection.retryNow();

@@ -43,14 +43,20 @@ export function drawMarks(plot: uPlot, marks: readonly EventMark[], colours: Col
     ctx.stroke();
     ctx.setLineDash([]);
     ctx.beginPath();
-    shape(ctx, severity, x, bbox.top, kMark_px * ratio);
+    severityShape(ctx, severity, x, bbox.top, kMark_px * ratio);
     ctx.fill();
   }
   ctx.restore();
 }
 
 /** Square, disc and diamond, as everywhere; a tick for what is no alert. */
-function shape(ctx: CanvasRenderingContext2D, severity: number, x: number, y: number, size: number): void {
+export function severityShape(
+  ctx: CanvasRenderingContext2D,
+  severity: number,
+  x: number,
+  y: number,
+  size: number,
+): void {
   if (severity === 3) ctx.rect(x - size, y - size, 2 * size, 2 * size);
   else if (severity === 2) ctx.arc(x, y, size, 0, 2 * Math.PI);
   else if (severity === 1) {

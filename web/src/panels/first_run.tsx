@@ -1,4 +1,5 @@
 import { useSignal } from "@preact/signals";
+import { replay } from "../state/replay";
 import type { Store } from "../state/store";
 import { kNodes, missingFor, nodeStates, type NodeState } from "./nodes";
 
@@ -9,7 +10,7 @@ const kPatience_ms = 4000;
 /** While there is no fleet, or nobody to fly or watch it: what the page waits for, and the commands that start it. */
 export function FirstRun({ store }: { store: Store }) {
   const hello = store.hello.value;
-  if (store.connection.value.kind !== "open" || hello === null) return null;
+  if (store.connection.value.kind !== "open" || hello === null || replay.value?.kind === "log") return null;
   const nodes = nodeStates(store.heartbeats.value, store.silent_nodes.value);
   if (store.roster.value !== null) return <Incomplete store={store} nodes={nodes} />;
   return (

@@ -1,10 +1,10 @@
 import { replay } from "../state/replay";
 import "./replay_banner.css";
 
-/** Across the page while it shows what has been: nobody may take it for what is. `live_url`: where the live flight is, null: nowhere. */
-export function ReplayBanner({ live_url }: { live_url: string | null }) {
+/** Across the page while it shows what has been: nobody may take it for what is. `live`: there is a live flight to go back to. */
+export function ReplayBanner({ live }: { live: boolean }) {
   const shown = replay.value;
-  if (shown === null) return null;
+  if (shown === null || shown.name === "") return null;
   return (
     <section class="replay-banner" aria-label="Replay">
       <strong>REPLAY</strong>
@@ -16,8 +16,9 @@ export function ReplayBanner({ live_url }: { live_url: string | null }) {
         {shown.kind === "player" ? "Played on this bus by lcm-logplayer. " : ""}Nothing here happens now, and
         nothing can be commanded.
       </span>
-      {live_url !== null && (
-        <a class="button" href={live_url}>
+      {shown.kind === "log" && live && (
+        // Without a name there is the live flight.
+        <a class="button" href={location.pathname}>
           Back to live
         </a>
       )}

@@ -15,6 +15,13 @@ const kIcons = {
   sound: "M2 6h2.500l3.500-3v10l-3.500-3H2zM10.500 5.500a3.500 3.500 0 0 1 0 5M12.500 3.500a6 6 0 0 1 0 9",
   muted: "M2 6h2.500l3.500-3v10l-3.500-3H2zM10.500 6l4 4M14.500 6l-4 4",
   hold: "M5.500 3.500v9M10.500 3.500v9",
+  play: "M5 3l8 5-8 5z",
+  backwards: "M11 3L3 8l8 5z",
+  step: "M4 3.500v9M7.500 4l5.500 4-5.500 4z",
+  step_back: "M12 3.500v9M8.500 4L3 8l5.500 4z",
+  next: "M3 4l5 4-5 4zM8 4l5 4-5 4M13.500 3.500v9",
+  previous: "M13 4L8 8l5 4zM8 4L3 8l5 4M2.500 3.500v9",
+  recordings: "M2 3.500h12v9H2zM2 10h12M6 3.500v9M10 3.500v9",
 } as const;
 
 export type IconName = keyof typeof kIcons;

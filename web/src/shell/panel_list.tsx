@@ -8,6 +8,7 @@ import { PlanPanel } from "../plan/plan_panel";
 import { PayloadPanel } from "../payload/payload_panel";
 import { FormationTable } from "../table/formation_table";
 import { SimulationPanel } from "../simulation/simulation_panel";
+import { RecordingsPanel } from "../recordings/recordings_panel";
 import type { IconName } from "./icon";
 import type { PanelProps } from "./panel_props";
 
@@ -36,6 +37,7 @@ export const kDrawerPanels: readonly DrawerSpec[] = [
   { id: "plan", title: "Plan", icon: "plan", shortcut: "p", view: PlanPanel },
   { id: "payload", title: "Payload", view: PayloadPanel, icon: "payload", shortcut: "y" },
   { id: "simulation", title: "Simulation", icon: "simulation", shortcut: "s", view: SimulationPanel },
+  { id: "recordings", title: "Recordings", icon: "recordings", shortcut: "r", view: RecordingsPanel },
 ];
 
 /** Beside the map on the right. */

@@ -5,9 +5,11 @@ import { FirstRun } from "../panels/first_run";
 import { LinkBanner } from "../panels/link_banner";
 import { ModeCards } from "../panels/mode_cards";
 import { ReplayBanner } from "../panels/replay_banner";
+import { Opening } from "../recordings/opening";
 import { Dock, Drawer, Rail, SideColumn } from "./docks";
 import { Help } from "./help";
 import type { PanelProps } from "./panel_props";
+import { TimeLine } from "../timeline/timeline";
 import { listenForShortcuts } from "./shortcuts";
 import { TopBar } from "./top_bar";
 
@@ -21,7 +23,7 @@ export function Shell({ station }: PanelProps) {
   return (
     <main class={stale ? "app stale" : "app"}>
       <TopBar station={station} />
-      <ReplayBanner live_url={null} />
+      <ReplayBanner live={store.hello.value?.recordings?.live_bus === true} />
       <Rail />
       <Drawer station={station} />
       <div class="middle">
@@ -32,11 +34,13 @@ export function Shell({ station }: PanelProps) {
             <LinkBanner store={store} retry={station.retry} />
             <ControlNotices station={station} />
             <FirstRun store={store} />
+            <Opening station={station} />
           </div>
         </div>
       </div>
       <SideColumn station={station} />
       <Dock station={station} />
+      <TimeLine station={station} />
       <Help />
     </main>
   );

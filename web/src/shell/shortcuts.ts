@@ -62,12 +62,22 @@ function typing(target: EventTarget | null): boolean {
   );
 }
 
+/** What has the focus is pressed by it. */
+function presses(target: EventTarget | null, keys: string): boolean {
+  return (
+    (keys === "Space" || keys === "Enter") &&
+    target instanceof Element &&
+    target.matches("button, a[href], summary, input, [role=button], [role=switch], [role=tab], [role=option]")
+  );
+}
+
 export function listenForShortcuts(): () => void {
   const onKey = (event: KeyboardEvent) => {
     if (event.defaultPrevented || typing(event.target)) return;
     const keys = keysOf(event);
     // It closes the dialog, unless somebody prevents that.
     if (keys === "Escape" && document.querySelector("dialog:modal") !== null) return;
+    if (presses(event.target, keys)) return;
     const shortcut = shortcuts.peek().findLast((one) => one.keys.toLowerCase() === keys.toLowerCase());
     if (shortcut === undefined) return;
     event.preventDefault();

@@ -5,6 +5,7 @@ import type { Api } from "../link/api";
 import type { Commands } from "../link/commands";
 import type { MapAccess } from "../map/map_access";
 import type { PayloadRequests } from "../payload/payload_requests";
+import type { Player } from "../timeline/player";
 import type { Store } from "../state/store";
 
 export interface Station {
@@ -14,6 +15,8 @@ export interface Station {
   readonly control: Control;
   readonly api: Api;
   readonly payloads: PayloadRequests;
+  /** The recording that is open, if one is. */
+  readonly player: Player;
   /** Null until the map is there. */
   readonly map: Signal<MapAccess | null>;
   /** Tries to connect at once. */

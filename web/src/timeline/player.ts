@@ -62,7 +62,7 @@ export class Player {
   at_s(now_ms: number): number {
     const playback = this.store.playback.value;
     if (this.wanted_s.value !== null) return this.wanted_s.value;
-    return playback === null ? 0 : timeAt(playback, (now_ms - this.store.playback_ms) / 1000);
+    return playback === null ? 0 : timeAt(playback, Math.max(0, now_ms - this.store.playback_ms) / 1000);
   }
 
   playing(): boolean {

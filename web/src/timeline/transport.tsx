@@ -1,0 +1,299 @@
+import { useSignal } from "@preact/signals";
+import { useId, useRef } from "preact/hooks";
+import { Icon, type IconName } from "../shell/icon";
+import { useShortcuts } from "../shell/shortcuts";
+import type { Station } from "../shell/station";
+import { fixed, kNone, utc } from "../units/format";
+import { landmarkFrom } from "./marks";
+import type { Player } from "./player";
+import { kSpeeds } from "./playing";
+import { clockTenths, utcDay } from "./time_text";
+import { parseTime } from "./typed_time";
+import { useFrameTime } from "./use_frame_time";
+
+interface Props {
+  station: Station;
+  disabled: boolean;
+}
+
+const kGroup = "Recording";
+
+/** Plays, steps, jumps; how fast; what time it is; the loop. */
+export function Transport({ station, disabled }: Props) {
+  const { player, store } = station;
+  const go_to = useRef<HTMLInputElement>(null);
+  const playback = store.playback.value;
+  const playing = playback?.state === "playing";
+  const direction = playback?.direction ?? 1;
+  const jump = (way: 1 | -1) => {
+    jumpToLandmark(player, way);
+  };
+  useShortcuts(
+    (
+      [
+        ["Space", "Play or pause", () => void player.toggle(1)],
+        ["b", "Play backwards or pause", () => void player.toggle(-1)],
+        [".", "A step of 0.05 s on", () => void player.step(1)],
+        [",", "A step of 0.05 s back", () => void player.step(-1)],
+        [
+          "n",
+          "Next alarm or marker",
+          () => {
+            jump(1);
+          },
+        ],
+        [
+          "Shift+n",
+          "Alarm or marker before",
+          () => {
+            jump(-1);
+          },
+        ],
+        [">", "Faster", () => void player.changeSpeed(1)],
+        ["<", "Slower", () => void player.changeSpeed(-1)],
+        [
+          "g",
+          "Go to a time",
+          () => {
+            go_to.current?.focus();
+          },
+        ],
+        [
+          "[",
+          "A: the loop begins here",
+          () => {
+            player.setLoopEnd("a");
+          },
+        ],
+        [
+          "]",
+          "B: the loop ends here",
+          () => {
+            player.setLoopEnd("b");
+          },
+        ],
+        ["\\", "No loop", () => void player.loop(null)],
+      ] as const
+    ).map(([keys, label, run]) => ({ keys, label, group: kGroup, run })),
+  );
+  const button = (icon: IconName, label: string, key: string, run: () => void) => (
+    <button
+      type="button"
+      class={`bar-button transport-${icon}`}
+      aria-label={label}
+      title={`${label} (${key})`}
+      disabled={disabled}
+      // A press of the mouse leaves the focus where it is, so that Space goes on playing and pausing.
+      onMouseDown={(event) => {
+        event.preventDefault();
+      }}
+      onClick={run}
+    >
+      <Icon name={icon} />
+    </button>
+  );
+  const forwards = playing && direction === 1;
+  const backwards = playing && direction === -1;
+  return (
+    <div class="transport" role="group" aria-label="Playing">
+      <span class="transport-keys">
+        {button("previous", "Alarm or marker before", "Shift+N", () => {
+          jump(-1);
+        })}
+        {button(
+          backwards ? "hold" : "backwards",
+          backwards ? "Pause" : "Play backwards",
+          "B",
+          () => void player.toggle(-1),
+        )}
+        {button("step_back", "Step back", ",", () => void player.step(-1))}
+        {button(
+          forwards ? "hold" : "play",
+          forwards ? "Pause" : "Play",
+          "Space",
+          () => void player.toggle(1),
+        )}
+        {button("step", "Step on", ".", () => void player.step(1))}
+        {button("next", "Next alarm or marker", "N", () => {
+          jump(1);
+        })}
+      </span>
+      <label class="transport-speed">
+        <span class="visually-hidden">Speed</span>
+        <select
+          class="field"
+          title="How fast it is played (< and >)"
+          disabled={disabled}
+          value={String(playback?.speed ?? 1)}
+          onChange={(event) => void player.setSpeed(Number(event.currentTarget.value))}
+        >
+          {speeds(playback?.speed ?? 1).map((speed) => (
+            <option key={speed} value={String(speed)}>
+              {fixed(speed, speed < 1 ? (speed === 0.25 ? 2 : 1) : 0)}×
+            </option>
+          ))}
+        </select>
+      </label>
+      <Times player={player} />
+      <GoTo station={station} disabled={disabled} input={go_to} />
+      <Loop station={station} disabled={disabled} />
+      {player.refusal.value !== "" && (
+        <p class="transport-refusal" role="alert">
+          {player.refusal.value}
+          <button
+            type="button"
+            class="button quiet"
+            aria-label="Dismiss"
+            onClick={() => {
+              player.refusal.value = "";
+            }}
+          >
+            ✕
+          </button>
+        </p>
+      )}
+    </div>
+  );
+}
+
+/** The usual ones, and the one that is played, whoever has chosen it. */
+function speeds(played: number): number[] {
+  return [...new Set([...kSpeeds, played])].sort((a, b) => a - b);
+}
+
+function jumpToLandmark(player: Player, way: 1 | -1): void {
+  const marks = player.info.value?.marks ?? [];
+  const mark = landmarkFrom(marks, player.at_s(performance.now()), way, player.playing());
+  if (mark !== null) player.seek(mark.t_s);
+  else
+    player.refusal.value = marks.some(({ kind }) => kind !== "event")
+      ? `No alarm or marker ${way === 1 ? "after" : "before"} this.`
+      : "There is no alarm or marker in this recording.";
+}
+
+/** Into the recording, of how much; and what the clock said then. */
+function Times({ player }: { player: Player }) {
+  const at_s = useFrameTime(player);
+  const start_utime = player.start_utime();
+  const utime = start_utime === null ? null : start_utime + at_s * 1e6;
+  return (
+    <dl class="transport-times">
+      <div>
+        <dt class="visually-hidden">Into the recording</dt>
+        <dd>
+          <span class="transport-now">{clockTenths(at_s)}</span>
+          <span class="transport-length"> / {clockTenths(player.duration_s()).slice(0, -2)}</span>
+        </dd>
+      </div>
+      <div class="transport-wall">
+        <dt class="visually-hidden">The clock then</dt>
+        <dd>{utime === null ? kNone : `${utcDay(utime)} ${utc(utime)} UTC`}</dd>
+      </div>
+    </dl>
+  );
+}
+
+interface GoToProps extends Props {
+  input: { current: HTMLInputElement | null };
+}
+
+function GoTo({ station: { player }, disabled, input }: GoToProps) {
+  const typed = useSignal("");
+  const problem = useSignal("");
+  const id = useId();
+  const go = (event: Event) => {
+    event.preventDefault();
+    const parsed = parseTime(typed.value, {
+      at_s: player.at_s(performance.now()),
+      duration_s: player.duration_s(),
+      start_utime: player.start_utime() ?? 0,
+    });
+    problem.value = "problem" in parsed ? parsed.problem : "";
+    if ("problem" in parsed) return;
+    player.seek(parsed.t_s);
+    typed.value = "";
+    input.current?.blur();
+  };
+  return (
+    <form class="go-to number-field" onSubmit={go}>
+      <input
+        ref={input}
+        type="text"
+        autocomplete="off"
+        placeholder="Go to"
+        aria-label="Go to a time"
+        title='A time to go to (G): "1:30" into the recording, "+10" or "-10" from here, "14:30:05Z" by the clock'
+        aria-invalid={problem.value !== ""}
+        aria-describedby={problem.value === "" ? undefined : id}
+        disabled={disabled}
+        value={typed.value}
+        onInput={(event) => {
+          typed.value = event.currentTarget.value;
+          problem.value = "";
+        }}
+        onBlur={() => {
+          problem.value = "";
+        }}
+        onKeyDown={(event) => {
+          if (event.key !== "Escape") return;
+          typed.value = "";
+          problem.value = "";
+          event.currentTarget.blur();
+        }}
+      />
+      {problem.value !== "" && (
+        <span class="field-problem" id={id} role="alert">
+          {problem.value}
+        </span>
+      )}
+    </form>
+  );
+}
+
+/** Between A and B, over and over. */
+function Loop({ station: { player, store }, disabled }: Props) {
+  const loop = store.playback.value?.loop ?? null;
+  const a_s = loop?.[0] ?? player.loop_a_s.value;
+  const b_s = loop?.[1] ?? null;
+  const end = (name: "a" | "b", at_s: number | null, key: string) => {
+    const label = name === "a" ? "The loop begins here" : "The loop ends here";
+    return (
+      <button
+        type="button"
+        class="button"
+        aria-label={`${name.toUpperCase()}: ${label.toLowerCase()}${at_s === null ? "" : `, now ${clockTenths(at_s)}`}`}
+        aria-pressed={at_s !== null}
+        title={`${label} (${key})${at_s === null ? "" : `: ${clockTenths(at_s)}`}`}
+        disabled={disabled}
+        onMouseDown={(event) => {
+          event.preventDefault();
+        }}
+        onClick={() => {
+          player.setLoopEnd(name);
+        }}
+      >
+        {name.toUpperCase()}
+      </button>
+    );
+  };
+  return (
+    <span class="button-row transport-loop" role="group" aria-label="Loop">
+      {end("a", a_s, "[")}
+      {end("b", b_s, "]")}
+      {a_s !== null && (
+        <button
+          type="button"
+          class="button quiet"
+          title="No loop (\)"
+          aria-label="No loop"
+          onMouseDown={(event) => {
+            event.preventDefault();
+          }}
+          onClick={() => void player.loop(null)}
+        >
+          ✕
+        </button>
+      )}
+    </span>
+  );
+}
