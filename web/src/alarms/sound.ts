@@ -1,5 +1,6 @@
 /** The sound of this browser: what its person wants to hear, and the beat on which it is played. */
 import { signal } from "@preact/signals";
+import { replay } from "../state/replay";
 import type { Store } from "../state/store";
 import { remembered, within, yesOrNo } from "../state/remembered";
 import { whyNoAlarms } from "./service";
@@ -13,6 +14,9 @@ export const heard = {
   2: remembered("alarms.sound.caution", true, yesOrNo),
   1: remembered("alarms.sound.advisory", true, yesOrNo),
 } as const;
+
+/** What has been must not frighten anybody who flies now: a replay is silent, until somebody wants to hear it. */
+export const heard_in_replay = signal(false);
 
 /** Nothing is heard until then (performance.now). Forgotten with the page: a silence that nobody remembers is dangerous. */
 export const muted_until_ms = signal(0);
@@ -50,6 +54,7 @@ export class AlarmSound {
   constructor(private readonly store: Store) {}
 
   beat(now_ms: number): void {
+    if (replay.value !== null && !heard_in_replay.value) return;
     // What can't be heard is not counted as heard: it sounds when it can be.
     if (player.blocked || muted_s(now_ms) > 0) return;
     const trouble = whyNoAlarms(this.store, now_ms);

@@ -1,8 +1,9 @@
 import { Icon } from "../shell/icon";
 import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
+import { replay } from "../state/replay";
 import { countdown, kSeverityNames } from "./alarm_list";
-import { heard, mute, muted_s, soundBlocked, tryOut, volume_percent } from "./sound";
+import { heard, heard_in_replay, mute, muted_s, soundBlocked, tryOut, volume_percent } from "./sound";
 
 const kMutes = [
   [60, "1 min"],
@@ -13,7 +14,11 @@ const kMutes = [
 export function SoundMenu({ station }: PanelProps) {
   const now_ms = station.store.now_ms.value;
   const left_s = muted_s(now_ms);
-  const silent = volume_percent.value === 0 || !Object.values(heard).some(({ value }) => value);
+  const in_replay = replay.value !== null;
+  const silent =
+    (in_replay && !heard_in_replay.value) ||
+    volume_percent.value === 0 ||
+    !Object.values(heard).some(({ value }) => value);
   const blocked = soundBlocked();
   const state = blocked
     ? "off until this page is clicked or a key is pressed"
@@ -105,6 +110,18 @@ export function SoundMenu({ station }: PanelProps) {
           </div>
         );
       })}
+      {in_replay && (
+        <label class="check">
+          <input
+            type="checkbox"
+            checked={heard_in_replay.value}
+            onChange={(event) => {
+              heard_in_replay.value = event.currentTarget.checked;
+            }}
+          />
+          Hear the alarms of this replay
+        </label>
+      )}
       <p class="hint">For this browser alone. What flashes goes on flashing.</p>
     </Popover>
   );

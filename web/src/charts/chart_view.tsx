@@ -24,13 +24,18 @@ interface ChartViewProps {
   select: (span: Span) => void;
   /** Plots that are on the screen, for the picture. */
   plots: Map<string, uPlot>;
+  /** In a recording: what is played, and how to go elsewhere. */
+  playing_s: number | null;
+  go: ((t_s: number) => void) | null;
 }
 
 /** How near the pointer must be to a mark [px]. */
 const kNear_px = 6;
+/** A press that moves further is a drag. */
+const kStill_px = 3;
 
 export function ChartView(props: ChartViewProps) {
-  const { chart, series, span, marks, revision, plots } = props;
+  const { chart, series, span, marks, revision, plots, playing_s } = props;
   const root = useRef<HTMLDivElement>(null);
   const plot = useRef<uPlot | null>(null);
   const newest = useRef(props);
@@ -78,6 +83,16 @@ export function ChartView(props: ChartViewProps) {
     const leave = () => {
       told.value = null;
     };
+    let pressed_px = NaN;
+    const press = (event: PointerEvent) => {
+      pressed_px = event.clientX;
+    };
+    const click = (event: MouseEvent) => {
+      if (Math.abs(event.clientX - pressed_px) > kStill_px) return;
+      now().go?.(made.posToVal(event.clientX - made.over.getBoundingClientRect().left, "x"));
+    };
+    made.over.addEventListener("pointerdown", press);
+    made.over.addEventListener("click", click);
     made.over.addEventListener("pointermove", point);
     made.over.addEventListener("pointerleave", leave);
     const observer = new ResizeObserver(() => {
@@ -98,13 +113,18 @@ export function ChartView(props: ChartViewProps) {
       showData(made, chartData(newest.current.series, chart, newest.current.span, made.over.clientWidth));
   }, [chart, ids, unit, theme_now, revision, series, span.from_s, span.to_s, marks]);
 
+  useEffect(() => {
+    const made = plot.current;
+    if (made !== null) showPlayed(made, playing_s);
+  });
+
   return (
     <figure class="chart" data-chart={chart.column}>
       <figcaption>
         {chart.title} <small>{unit}</small>
       </figcaption>
       <div class="chart-plot" ref={root} />
-      <Values chart={chart} series={series} revision={revision} />
+      <Values chart={chart} series={series} revision={revision} playing_s={playing_s} />
       {told.value !== null && (
         <div class="chart-tip" style={{ left: `${told.value.left_px}px` }} role="tooltip">
           {told.value.marks.map((mark) => (
@@ -122,11 +142,13 @@ interface ValuesProps {
   chart: ChartSpec;
   series: FlightSeries;
   revision: number;
+  playing_s: number | null;
 }
 
-/** The value of each curve at the cursor; without one, the newest. */
-function Values({ chart, series }: ValuesProps) {
-  const at = cursor_s.value === null ? series.count - 1 : series.indexAt(cursor_s.value);
+/** The value of each curve at the cursor; without one, the newest, in a recording what is played. */
+function Values({ chart, series, playing_s }: ValuesProps) {
+  const at_s = cursor_s.value ?? playing_s;
+  const at = at_s === null ? series.count - 1 : series.indexAt(at_s);
   return (
     <ul
       class="chart-values"
@@ -143,6 +165,20 @@ function Values({ chart, series }: ValuesProps) {
       })}
     </ul>
   );
+}
+
+/** A line at what is played; null: there is none. */
+function showPlayed(plot: uPlot, t_s: number | null): void {
+  let line = plot.over.querySelector<HTMLElement>(".played");
+  if (line === null) {
+    line = document.createElement("div");
+    line.className = "played";
+    plot.over.append(line);
+  }
+  const left_px = t_s === null ? NaN : plot.valToPos(t_s, "x");
+  const seen = left_px >= 0 && left_px <= plot.over.clientWidth;
+  line.hidden = !seen;
+  if (seen) line.style.transform = `translateX(${left_px}px)`;
 }
 
 function shown(chart: ChartSpec, si: number): string {

@@ -15,7 +15,8 @@ import { download, fileName } from "./download";
 import { marksOf } from "./event_marks";
 import { FlightRecorder } from "./flight_recorder";
 import { drawPicture } from "./png";
-import { kAll, pan, spanOf, zoom, type Span } from "./time_window";
+import { playedOf } from "./played";
+import { kAll, pan, spanOf, zoom, type Span, type TimeWindow } from "./time_window";
 
 /** Live curves are drawn anew so often. */
 const kRedraw_ms = 1000;
@@ -33,7 +34,7 @@ export function ChartsPanel({ station }: PanelProps) {
   const roster = store.roster.value;
   const selection = store.selection.value;
   const recorder = useRef<FlightRecorder | null>(null);
-  recorder.current ??= new FlightRecorder(store, station.api);
+  recorder.current ??= new FlightRecorder(store, station.api, station.player);
   const plots = useRef(new Map<string, uPlot>()).current;
   const chosen = useRef({ roster, selection, ids: [] as readonly number[], at_ms: -Infinity });
   useEffect(
@@ -63,22 +64,33 @@ export function ChartsPanel({ station }: PanelProps) {
   const revision = Math.floor(now_ms / kRedraw_ms);
   const events = store.events.value;
   const wanted_window = time_window.value;
+  const playing = playedOf(station, start_utime, now_ms);
   // Once a redrawing, and at once when something else is to be seen: not on every beat.
   const { start_s, now_s, span, marks } = useMemo(() => {
     const start_s = Math.max(series.times()[0] ?? 0, 0);
     const now_s = Math.max(series.last_s(), start_s);
-    const span = spanOf(wanted_window, start_s, now_s);
-    return { revision, start_s, now_s, span, marks: marksOf(events, start_utime, span) };
-  }, [series, revision, events, start_utime, wanted_window]);
+    // In a recording, "the last minute" is the one before what is played.
+    const until_s = playing === null || wanted_window === kAll ? now_s : Math.max(playing.t_s, start_s);
+    const span = spanOf(wanted_window, start_s, until_s);
+    const marks = playing === null ? marksOf(events, start_utime, span) : playing.marks(span);
+    return { revision, start_s, now_s, span, marks };
+    // What is played moves on with the revision.
+    // eslint-disable-next-line react-hooks/exhaustive-deps
+  }, [series, revision, events, start_utime, wanted_window, playing === null, station.player.info.value]);
   const charts = kCharts.filter(({ column }) => !hidden_charts.value.includes(column));
 
+  const choose = (window: TimeWindow) => {
+    // The end of a recording does not move on.
+    const fixed = playing !== null && window !== kAll;
+    time_window.value = fixed ? spanOf(window, start_s, now_s) : window;
+  };
   const gestures = {
     zoom: (factor: number, at: number) => {
       const at_s = span.from_s + at * (span.to_s - span.from_s);
-      time_window.value = zoom(span, factor, at_s, start_s, now_s);
+      choose(zoom(span, factor, at_s, start_s, now_s));
     },
     pan: (part: number) => {
-      time_window.value = pan(span, part, start_s, now_s);
+      choose(pan(span, part, start_s, now_s));
     },
     reset: () => {
       time_window.value = kAll;
@@ -180,6 +192,8 @@ export function ChartsPanel({ station }: PanelProps) {
                 time_window.value = selected;
               }}
               plots={plots}
+              playing_s={playing?.t_s ?? null}
+              go={playing?.go ?? null}
             />
           ))
         )}

@@ -4,6 +4,7 @@ import { kHasSlot } from "../link/frames";
 import type { Api } from "../link/api";
 import { kLinkLost, type Fleet } from "../state/fleet";
 import type { Store } from "../state/store";
+import type { Player } from "../timeline/player";
 import { FlightSeries, type ColumnName } from "./flight_series";
 import { appendHistory, decodeHistory } from "./history_frame";
 
@@ -14,6 +15,7 @@ const kOldAfter_s = 2;
 const kTryAgain_ms = 3000;
 /** Time that goes back so far is a recording that was wound back. */
 const kWoundBack_s = 2;
+const kGrown_s = 30;
 
 export type Loading = { kind: "idle" } | { kind: "loading" } | { kind: "failed"; reason: string };
 
@@ -29,6 +31,7 @@ export class FlightRecorder {
   constructor(
     private readonly store: Store,
     private readonly api: Api,
+    private readonly player: Player,
   ) {}
 
   /** On each beat: fetches when other UAVs, another flight or another connection are there, and adds what is new. */
@@ -37,12 +40,19 @@ export class FlightRecorder {
     const connected = this.store.connection.value.kind === "open";
     const hello = this.store.hello.value;
     if (roster === null || hello === null || !connected) return;
-    const wanted = `${ids.join()}/${roster.start_utime}/${hello.utime}`;
+    const recording = this.player.name.value;
+    // A recording has all of its flight at once; one that is being written has more every now and then.
+    const which =
+      recording === ""
+        ? String(hello.utime)
+        : `${recording}/${Math.floor(this.player.duration_s() / kGrown_s)}`;
+    const wanted = `${ids.join()}/${roster.start_utime}/${which}`;
     const again = this.loading.value.kind === "failed" && now_ms - this.failed_ms > kTryAgain_ms;
     if (wanted !== this.wanted || again) {
       this.wanted = wanted;
       void this.fetch(ids, roster.start_utime);
     }
+    if (recording !== "") return;
     if (this.loading.value.kind === "idle" && roster.start_utime === this.start_utime) this.appendLive();
   }
 
@@ -63,7 +73,10 @@ export class FlightRecorder {
       this.loading.value = { kind: "loading" };
       const since = goes_on && series.count > 0 ? `&since=${series.last_s()}` : "";
       try {
-        const bytes = await this.api.getBytes(`api/history?ids=${ids.join()}${since}`, abort.signal);
+        const bytes = await this.api.getBytes(
+          `api/history?ids=${ids.join()}${since}${this.recordingQuery()}`,
+          abort.signal,
+        );
         const frame = decodeHistory(bytes);
         if (frame === null) throw new Error("web-bridge sent a history that this page can't read.");
         // Between the roster here and the history there another flight may have begun: then a roster comes, too.
@@ -81,6 +94,13 @@ export class FlightRecorder {
     this.series = series;
     this.start_utime = start_utime;
     this.loading.value = { kind: "idle" };
+  }
+
+  /** Which recording, and which of its flights: the one at the time that is played. */
+  private recordingQuery(): string {
+    const name = this.player.name.peek();
+    if (name === "") return "";
+    return `&recording=${encodeURIComponent(name)}&at=${this.player.at_s(performance.now()).toFixed(3)}`;
   }
 
   private appendLive(): void {

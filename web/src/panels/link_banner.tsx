@@ -1,11 +1,13 @@
 import { kMonitor, whyNoAlarms } from "../alarms/service";
 import type { Store } from "../state/store";
+import { replay } from "../state/replay";
 import { duration, utc } from "../units/format";
 
 /** Over the map when what it shows is old: why, since when, and what is done about it. */
 export function LinkBanner({ store, retry }: { store: Store; retry: () => void }) {
   const now_ms = store.now_ms.value;
   const connection = store.connection.value;
+  const replayed = replay.value?.kind === "log";
   const last_utime = store.fleet.motion?.utime;
   const old = last_utime === undefined ? "" : ` The fleet is shown as it was at ${utc(last_utime)} UTC.`;
 
@@ -16,7 +18,7 @@ export function LinkBanner({ store, retry }: { store: Store; retry: () => void }
     return (
       <div class="banner" role="status">
         <p>
-          <strong>Reconnecting to web-bridge… No alarms can come.</strong>
+          <strong>Reconnecting to web-bridge…{replayed ? "" : " No alarms can come."}</strong>
           {old}
         </p>
         <p class="detail">{wait_s > 0 ? `Next attempt in ${wait_s} s.` : "Trying now."}</p>
@@ -33,7 +35,7 @@ export function LinkBanner({ store, retry }: { store: Store; retry: () => void }
   const sentences = [
     silence_s === null ? "" : `No telemetry for ${duration(silence_s)}.`,
     silent.length === 0 ? "" : `Not heard: ${silent.join(", ")}.`,
-    silent.includes(kMonitor) ? "No alarms can come." : no_alarms,
+    silent.includes(kMonitor) && !replayed ? "No alarms can come." : no_alarms,
   ].filter(Boolean);
   if (sentences.length === 0) return null;
   return (
@@ -42,11 +44,13 @@ export function LinkBanner({ store, retry }: { store: Store; retry: () => void }
         <strong>{sentences.join(" ")}</strong>
         {silence_s !== null && old}
       </p>
-      <p class="detail">
-        {silence_s === null
-          ? "It is taken up again as soon as it is back."
-          : "Reconnects by itself when the bus is back."}
-      </p>
+      {!replayed && (
+        <p class="detail">
+          {silence_s === null
+            ? "It is taken up again as soon as it is back."
+            : "Reconnects by itself when the bus is back."}
+        </p>
+      )}
     </div>
   );
 }

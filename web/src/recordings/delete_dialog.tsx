@@ -64,12 +64,12 @@ export function DeleteDialog({ station, recording, close }: DeleteDialogProps) {
         </button>
         <button
           type="button"
-          class="button primary"
+          class="button"
           aria-busy={busy.value}
           disabled={busy.value}
           onClick={() => void remove()}
         >
-          Delete {name}
+          Delete for good
         </button>
       </div>
     </dialog>

@@ -2,7 +2,7 @@
 import { computed, effect, signal, untracked } from "@preact/signals";
 import type { Api } from "../link/api";
 import type { Commands, Outcome } from "../link/commands";
-import type { PlaybackBody, RecordingInfo } from "../link/recording_messages";
+import type { PlaybackBody, PlaybackMessage, RecordingInfo } from "../link/recording_messages";
 import { replay } from "../state/replay";
 import type { Store } from "../state/store";
 import { loopProblem, nextSpeed, timeAt, type Span } from "./playing";
@@ -25,6 +25,9 @@ export class Player {
   /** One end of a loop whose other end is still to be set. */
   readonly loop_a_s = signal<number | null>(null);
   private seeking = false;
+  /** Where a lost connection has left us. */
+  private left: PlaybackMessage | null = null;
+  private opened_again = false;
 
   constructor(
     private readonly store: Store,
@@ -46,6 +49,29 @@ export class Player {
         abort.abort();
       };
     });
+    effect(() => {
+      this.comeBack();
+    });
+  }
+
+  /** A new connection has a player of its own, at the beginning: it is taken where the last one was. */
+  private comeBack(): void {
+    const playback = this.store.playback.value;
+    if (playback === null) return;
+    if (this.store.connection.value.kind !== "open") {
+      const under_way = playback.state === "paused" || playback.state === "playing";
+      this.opened_again = false;
+      if (under_way) this.left ??= { ...playback, t_s: untracked(() => this.at_s(performance.now())) };
+      return;
+    }
+    if (playback.state === "opening") this.opened_again = true;
+    const left = this.left;
+    if (left === null || !this.opened_again || playback.state !== "paused") return;
+    this.left = null;
+    this.seek(left.t_s);
+    void this.ask({ action: "speed", speed: left.direction * left.speed });
+    if (left.loop !== null) void this.ask({ action: "loop", loop: left.loop });
+    if (left.state === "playing") void this.ask({ action: "play" });
   }
 
   /** Length of the recording [s]; 0 until it is known. */
@@ -62,6 +88,7 @@ export class Player {
   at_s(now_ms: number): number {
     const playback = this.store.playback.value;
     if (this.wanted_s.value !== null) return this.wanted_s.value;
+    if (this.left !== null) return this.left.t_s;
     return playback === null ? 0 : timeAt(playback, Math.max(0, now_ms - this.store.playback_ms) / 1000);
   }
 
@@ -103,6 +130,7 @@ export class Player {
 
   /** Sets an end of the loop to the time that is played. */
   setLoopEnd(end: "a" | "b"): void {
+    this.refusal.value = "";
     const t_s = this.at_s(performance.now());
     const loop = this.store.playback.value?.loop ?? null;
     const a_s = end === "a" ? t_s : (loop?.[0] ?? this.loop_a_s.value ?? 0);

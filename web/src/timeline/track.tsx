@@ -141,9 +141,12 @@ export function Track({ station, disabled }: Props) {
         <canvas ref={canvas} aria-hidden="true" />
         {!disabled && <Playhead player={player} scale={scale} />}
         {pointed_px.value !== null && duration_s > 0 && (
-          <Pointed player={player} info={info} scale={scale} x_px={pointed_px.value} />
+          <div class="pointed" style={{ transform: `translateX(${pointed_px.value}px)` }} />
         )}
       </div>
+      {pointed_px.value !== null && duration_s > 0 && (
+        <Pointed player={player} info={info} scale={scale} x_px={pointed_px.value} />
+      )}
       {!whole && (
         <button
           type="button"
@@ -175,6 +178,8 @@ interface PointedProps {
 
 const kNear_px = 5;
 const kMostTold = 4;
+/** Of the section around the line. */
+const kPadding_px = 12;
 
 /** What is where the pointer is. */
 function Pointed({ player, info, scale, x_px }: PointedProps) {
@@ -184,21 +189,18 @@ function Pointed({ player, info, scale, x_px }: PointedProps) {
   const torn = (info?.damage ?? []).find((one) => Math.abs(one.t_s - t_s) <= within_s);
   const start_utime = player.start_utime();
   // Towards the middle, so that it stays on the page.
-  const side = x_px < scale.width_px / 2 ? { left: `${x_px}px` } : { right: `${scale.width_px - x_px}px` };
+  const side = x_px < scale.width_px / 2 ? "" : " leftwards";
   return (
-    <>
-      <div class="pointed" style={{ transform: `translateX(${x_px}px)` }} />
-      <div class="track-tip panel" style={side} role="tooltip">
-        <p class="track-tip-time">
-          {clockTenths(t_s)} {start_utime !== null && <span>{utc(start_utime + t_s * 1e6)} UTC</span>}
-        </p>
-        {told.map((mark, i) => (
-          <MarkLine key={i} mark={mark} />
-        ))}
-        {more > 0 && <p class="hint">and {more} more</p>}
-        {torn !== undefined && <p>{tornText(torn)}</p>}
-      </div>
-    </>
+    <div class={`track-tip panel${side}`} style={{ left: `${x_px + kPadding_px}px` }} role="tooltip">
+      <p class="track-tip-time">
+        {clockTenths(t_s)} {start_utime !== null && <span>{utc(start_utime + t_s * 1e6)} UTC</span>}
+      </p>
+      {told.map((mark, i) => (
+        <MarkLine key={i} mark={mark} />
+      ))}
+      {more > 0 && <p class="hint">and {more} more</p>}
+      {torn !== undefined && <p>{tornText(torn)}</p>}
+    </div>
   );
 }
 

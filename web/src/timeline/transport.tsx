@@ -1,17 +1,17 @@
-import { useSignal } from "@preact/signals";
-import { useId, useRef } from "preact/hooks";
+import { useRef } from "preact/hooks";
 import { Icon, type IconName } from "../shell/icon";
 import { useShortcuts } from "../shell/shortcuts";
 import type { Station } from "../shell/station";
 import { fixed, kNone, utc } from "../units/format";
+import { GoTo } from "./go_to";
+import { LoopEnds } from "./loop_ends";
 import { landmarkFrom } from "./marks";
 import type { Player } from "./player";
 import { kSpeeds } from "./playing";
 import { clockTenths, utcDay } from "./time_text";
-import { parseTime } from "./typed_time";
 import { useFrameTime } from "./use_frame_time";
 
-interface Props {
+export interface TransportProps {
   station: Station;
   disabled: boolean;
 }
@@ -19,7 +19,7 @@ interface Props {
 const kGroup = "Recording";
 
 /** Plays, steps, jumps; how fast; what time it is; the loop. */
-export function Transport({ station, disabled }: Props) {
+export function Transport({ station, disabled }: TransportProps) {
   const { player, store } = station;
   const go_to = useRef<HTMLInputElement>(null);
   const playback = store.playback.value;
@@ -135,8 +135,8 @@ export function Transport({ station, disabled }: Props) {
         </select>
       </label>
       <Times player={player} />
-      <GoTo station={station} disabled={disabled} input={go_to} />
-      <Loop station={station} disabled={disabled} />
+      <GoTo player={player} disabled={disabled} input={go_to} />
+      <LoopEnds station={station} disabled={disabled} />
       {player.refusal.value !== "" && (
         <p class="transport-refusal" role="alert">
           {player.refusal.value}
@@ -187,113 +187,17 @@ function Times({ player }: { player: Player }) {
       </div>
       <div class="transport-wall">
         <dt class="visually-hidden">The clock then</dt>
-        <dd>{utime === null ? kNone : `${utcDay(utime)} ${utc(utime)} UTC`}</dd>
+        <dd>
+          {utime === null ? (
+            kNone
+          ) : (
+            <>
+              <span class="transport-day">{utcDay(utime)} </span>
+              {utc(utime)} UTC
+            </>
+          )}
+        </dd>
       </div>
     </dl>
-  );
-}
-
-interface GoToProps extends Props {
-  input: { current: HTMLInputElement | null };
-}
-
-function GoTo({ station: { player }, disabled, input }: GoToProps) {
-  const typed = useSignal("");
-  const problem = useSignal("");
-  const id = useId();
-  const go = (event: Event) => {
-    event.preventDefault();
-    const parsed = parseTime(typed.value, {
-      at_s: player.at_s(performance.now()),
-      duration_s: player.duration_s(),
-      start_utime: player.start_utime() ?? 0,
-    });
-    problem.value = "problem" in parsed ? parsed.problem : "";
-    if ("problem" in parsed) return;
-    player.seek(parsed.t_s);
-    typed.value = "";
-    input.current?.blur();
-  };
-  return (
-    <form class="go-to number-field" onSubmit={go}>
-      <input
-        ref={input}
-        type="text"
-        autocomplete="off"
-        placeholder="Go to"
-        aria-label="Go to a time"
-        title='A time to go to (G): "1:30" into the recording, "+10" or "-10" from here, "14:30:05Z" by the clock'
-        aria-invalid={problem.value !== ""}
-        aria-describedby={problem.value === "" ? undefined : id}
-        disabled={disabled}
-        value={typed.value}
-        onInput={(event) => {
-          typed.value = event.currentTarget.value;
-          problem.value = "";
-        }}
-        onBlur={() => {
-          problem.value = "";
-        }}
-        onKeyDown={(event) => {
-          if (event.key !== "Escape") return;
-          typed.value = "";
-          problem.value = "";
-          event.currentTarget.blur();
-        }}
-      />
-      {problem.value !== "" && (
-        <span class="field-problem" id={id} role="alert">
-          {problem.value}
-        </span>
-      )}
-    </form>
-  );
-}
-
-/** Between A and B, over and over. */
-function Loop({ station: { player, store }, disabled }: Props) {
-  const loop = store.playback.value?.loop ?? null;
-  const a_s = loop?.[0] ?? player.loop_a_s.value;
-  const b_s = loop?.[1] ?? null;
-  const end = (name: "a" | "b", at_s: number | null, key: string) => {
-    const label = name === "a" ? "The loop begins here" : "The loop ends here";
-    return (
-      <button
-        type="button"
-        class="button"
-        aria-label={`${name.toUpperCase()}: ${label.toLowerCase()}${at_s === null ? "" : `, now ${clockTenths(at_s)}`}`}
-        aria-pressed={at_s !== null}
-        title={`${label} (${key})${at_s === null ? "" : `: ${clockTenths(at_s)}`}`}
-        disabled={disabled}
-        onMouseDown={(event) => {
-          event.preventDefault();
-        }}
-        onClick={() => {
-          player.setLoopEnd(name);
-        }}
-      >
-        {name.toUpperCase()}
-      </button>
-    );
-  };
-  return (
-    <span class="button-row transport-loop" role="group" aria-label="Loop">
-      {end("a", a_s, "[")}
-      {end("b", b_s, "]")}
-      {a_s !== null && (
-        <button
-          type="button"
-          class="button quiet"
-          title="No loop (\)"
-          aria-label="No loop"
-          onMouseDown={(event) => {
-            event.preventDefault();
-          }}
-          onClick={() => void player.loop(null)}
-        >
-          ✕
-        </button>
-      )}
-    </span>
   );
 }
