@@ -58,7 +58,8 @@ export class Screen {
     });
   }
 
-  static async open(): Promise<Screen> {
+  /** @param path after the page's address */
+  static async open(path = ""): Promise<Screen> {
     mkdirSync(kResults, { recursive: true });
     const profile = mkdtempSync(`${tmpdir()}/skein-browser-`);
     const context = await chromium.launchPersistentContext(profile, {
@@ -69,7 +70,7 @@ export class Screen {
     });
     const page = context.pages()[0] ?? (await context.newPage());
     const screen = new Screen(context, profile, page);
-    await page.goto(kPageUrl);
+    await page.goto(kPageUrl + path);
     return screen;
   }
 

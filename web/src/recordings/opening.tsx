@@ -1,18 +1,17 @@
 import type { Station } from "../shell/station";
 import { replay } from "../state/replay";
 import { RecordingList } from "./recording_list";
+import { openingProblem } from "./opening_problem";
 import "./recordings.css";
 
 /** In the middle of the page while no recording is to be seen yet: how far it is, why it can't be, or which there are. */
 export function Opening({ station }: { station: Station }) {
-  const { player, store } = station;
+  const { store } = station;
   const shown = replay.value;
   if (shown === null || shown.kind !== "log") return null;
   if (shown.name === "") return <Choose station={station} />;
   const playback = store.playback.value;
-  const failed = playback?.state === "failed";
-  const unreachable = playback === null || store.connection.value.kind !== "open";
-  const problem = failed ? playback.problem : unreachable ? player.problem.value : "";
+  const problem = openingProblem(station);
   if (problem !== "") {
     return (
       <section class="panel opening" aria-labelledby="opening-title" role="alert">

@@ -6,6 +6,7 @@ import { LinkBanner } from "../panels/link_banner";
 import { ModeCards } from "../panels/mode_cards";
 import { ReplayBanner } from "../panels/replay_banner";
 import { Opening } from "../recordings/opening";
+import { openingProblem } from "../recordings/opening_problem";
 import { Dock, Drawer, Rail, SideColumn } from "./docks";
 import { Help } from "./help";
 import type { PanelProps } from "./panel_props";
@@ -31,7 +32,7 @@ export function Shell({ station }: PanelProps) {
           <MapPanel station={station} freeArea={freeArea} />
           <ModeCards store={store} />
           <div class="free" ref={free}>
-            <LinkBanner store={store} retry={station.retry} />
+            {openingProblem(station) === "" && <LinkBanner store={store} retry={station.retry} />}
             <ControlNotices station={station} />
             <FirstRun store={store} />
             <Opening station={station} />

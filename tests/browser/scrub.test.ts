@@ -1,0 +1,274 @@
+/** A recorded flight is opened and scrubbed through: played, reversed, stepped, looped, dragged; at any moment of it everything is as it was. */
+import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { kName, RecordedFlight } from "./recorded_flight";
+import { Screen } from "./screen";
+
+const flight = new RecordedFlight();
+let screen: Screen;
+/** How high UAV1 was when the recording ended. */
+let altitude_then_m: number;
+
+const until = (what: () => Promise<void> | void, timeout = 15_000) =>
+  vi.waitFor(what, { timeout, interval: 50 });
+const page = () => screen.page;
+const line = () => page().getByRole("slider", { name: /^Time in the recording/ });
+/** What the time line says is played [s]. */
+async function at_s(of = screen): Promise<number> {
+  const [hours = NaN, minutes = NaN, seconds = NaN] = (await of.text(".transport-now"))
+    .split(":")
+    .map(Number);
+  return 3600 * hours + 60 * minutes + seconds;
+}
+const duration_s = async () => Number(await line().getAttribute("aria-valuemax"));
+async function goTo(text: string): Promise<void> {
+  await page().keyboard.press("g");
+  await page().keyboard.type(text);
+  await page().keyboard.press("Enter");
+}
+
+function explain(): void {
+  onTestFailed(() => {
+    process.stderr.write(`${flight.station.log()}\n`);
+  });
+}
+
+beforeAll(async () => {
+  await flight.start();
+});
+
+afterAll(async () => {
+  await screen?.close();
+  await flight.end();
+});
+
+test("a flight with a lost link is recorded", async () => {
+  explain();
+  screen = await Screen.open();
+  altitude_then_m = await flight.loseAndClimb(screen);
+});
+
+test("opened by a click, it stands at its beginning under a banner, and nothing can be commanded", async () => {
+  explain();
+  await page().keyboard.press("r");
+  await page()
+    .getByRole("link", { name: `Open ${kName}`, exact: true })
+    .last()
+    .click();
+  await page().waitForURL(/recording=Alarms/);
+  await page().locator(".playhead").waitFor();
+  expect(await screen.text(".replay-banner")).toContain(kName);
+  expect(await at_s()).toBe(0);
+  await goTo("+15");
+  await until(async () => expect(await page().locator("tbody tr").count()).toBe(3));
+  expect(await screen.payload("UAV1").getAttribute("aria-disabled")).toBe("true");
+  expect(await screen.payload("UAV1").getAttribute("title")).toContain("nothing can be commanded");
+  expect(await page().locator(".hold-all").getAttribute("aria-disabled")).toBe("true");
+  expect(await page().locator(".control-pill").count()).toBe(0);
+  expect(await page().locator(".banner").count()).toBe(0);
+});
+
+test("Space plays and pauses, and the time stands while it is paused", async () => {
+  explain();
+  const before_s = await at_s();
+  await page().keyboard.press("Space");
+  await until(async () => expect(await at_s()).toBeGreaterThan(before_s + 0.5));
+  expect(await screen.button("Pause").count()).toBe(1);
+  await page().keyboard.press("Space");
+  await screen.button("Play").waitFor();
+  const then_s = await at_s();
+  await page().keyboard.press("."); // waits for an answer, so the pause has long been seen
+  await until(async () => expect(await at_s()).toBeGreaterThanOrEqual(then_s));
+  expect(await at_s()).toBeLessThan(then_s + 0.3);
+});
+
+test("at the next alarm everything is as it was: the list, the link, the events, the altitude", async () => {
+  explain();
+  await page().getByRole("tab", { name: "Events" }).click();
+  await page().keyboard.press("g");
+  await page().keyboard.type("0");
+  await page().keyboard.press("Enter");
+  await until(async () => expect(await at_s()).toBe(0));
+  expect(await screen.text(".events")).not.toContain("UAV3");
+  await page().keyboard.press("n");
+  await until(async () => expect(await at_s()).toBeGreaterThan(1));
+  // There may be others before it.
+  for (let i = 0; i < 20 && (await page().locator(".events li", { hasText: "UAV3" }).count()) === 0; i += 1) {
+    const before_s = await at_s();
+    await page().keyboard.press("n");
+    await until(async () => expect(await at_s()).toBeGreaterThan(before_s));
+  }
+  await goTo("+2");
+  await until(async () => expect((await screen.uav(3)).downlink).toBe("lost"));
+  await page().getByRole("tab", { name: "Alarms" }).click();
+  await until(async () => expect(await screen.text(".alarms")).toContain("UAV3"));
+  const { altitude_m } = await screen.uav(1);
+  expect(altitude_m).toBeLessThan(altitude_then_m);
+  await line().focus();
+  await page().keyboard.press("End");
+  await until(async () =>
+    expect(Math.abs((await screen.uav(1)).altitude_m - altitude_then_m)).toBeLessThan(40),
+  );
+  expect((await screen.uav(1)).altitude_m).toBeGreaterThan(1030);
+  await page().keyboard.press("Shift+N");
+  await until(async () => expect(await at_s()).toBeLessThan((await duration_s()) - 1));
+});
+
+test("no alarm sounds unless it is switched on", async () => {
+  explain();
+  const sound = page().locator(".sound-button");
+  expect(await sound.getAttribute("aria-label")).toContain("off");
+  await sound.click();
+  await page().getByLabel("Hear the alarms of this replay").check();
+  expect(await sound.getAttribute("aria-label")).toContain("on");
+  await page().getByLabel("Hear the alarms of this replay").uncheck();
+  await page().keyboard.press("Escape");
+});
+
+test("dragged along the line, the fleet follows the hand", async () => {
+  explain();
+  const box = await line().boundingBox();
+  if (box === null) throw new Error("the line isn't there");
+  const [length_s, y] = [await duration_s(), box.y + box.height / 2];
+  await page().mouse.move(box.x + 0.2 * box.width, y);
+  await page().mouse.down();
+  for (let part = 0.2; part < 0.8; part += 0.05) await page().mouse.move(box.x + part * box.width, y);
+  await page().mouse.move(box.x + 0.8 * box.width, y);
+  await until(async () => expect(Math.abs((await at_s()) - 0.8 * length_s)).toBeLessThan(0.2));
+  await page().mouse.up();
+  await until(async () => expect(Math.abs((await at_s()) - 0.8 * length_s)).toBeLessThan(0.2));
+});
+
+test("backwards, in fast motion, and to its end", async () => {
+  explain();
+  const from_s = await at_s();
+  await page().keyboard.press("b");
+  await until(async () => expect(await at_s()).toBeLessThan(from_s - 1));
+  await page().keyboard.press("b");
+  await page().getByLabel("Speed").selectOption("50");
+  await page().keyboard.press("Escape");
+  await line().focus();
+  await page().keyboard.press("Home");
+  await page().keyboard.press("Space");
+  await until(async () => expect(await at_s()).toBeGreaterThan((await duration_s()) - 0.2));
+  await screen.button("Play").waitFor();
+  await page().keyboard.press("<");
+  await until(async () => expect(await page().getByLabel("Speed").inputValue()).toBe("20"));
+});
+
+test("between A and B it goes round", async () => {
+  explain();
+  await page().getByLabel("Speed").selectOption("5");
+  await goTo("5");
+  await until(async () => expect(await at_s()).toBe(5));
+  await page().keyboard.press("[");
+  await goTo("7");
+  await until(async () => expect(await at_s()).toBe(7));
+  await page().keyboard.press("]");
+  await screen.button("No loop").waitFor();
+  await page().keyboard.press("Space");
+  let last_s = 7;
+  let rounds = 0;
+  await until(async () => {
+    const now_s = await at_s();
+    expect(now_s).toBeGreaterThanOrEqual(4.9);
+    expect(now_s).toBeLessThanOrEqual(7.1);
+    if (now_s < last_s) rounds += 1;
+    last_s = now_s;
+    expect(rounds).toBeGreaterThan(2);
+  });
+  await page().keyboard.press("Space");
+  await page().keyboard.press("\\");
+  await until(async () => expect(await screen.button("No loop").count()).toBe(0));
+});
+
+test("the charts show all of the flight at once, and where in it we are", async () => {
+  explain();
+  await page().getByRole("tab", { name: "Charts" }).click();
+  const plot = page().locator('[data-chart="up_m"] .u-over');
+  await plot.waitFor();
+  const played = plot.locator(".played");
+  const left = async () => (await played.boundingBox())?.x ?? NaN;
+  await goTo("5");
+  await until(async () => expect(await left()).toBeGreaterThan(0));
+  const [early_px, box] = [await left(), await plot.boundingBox()];
+  if (box === null) throw new Error("the chart isn't there");
+  expect(early_px).toBeLessThan(box.x + box.width / 2);
+  // A press on a chart goes there.
+  await plot.click({ position: { x: box.width * 0.9, y: box.height / 2 } });
+  await until(async () => expect(Math.abs((await left()) - box.x - box.width * 0.9)).toBeLessThan(4));
+  for (const theme of ["dark", "light"] as const) {
+    await screen.picture("recording-charts", 1920, 1080, theme);
+    expect(await screen.barriers()).toEqual([]);
+  }
+  await screen.show(1280, 720, "dark");
+  await page().getByRole("tab", { name: "Table" }).click();
+});
+
+test("a time that is none is told beside the field, with what can be typed", async () => {
+  explain();
+  await goTo("soon");
+  const problem = page().locator(".go-to .field-problem");
+  expect(await problem.innerText()).toContain("1:30");
+  await page().keyboard.press("Escape");
+  expect(await problem.count()).toBe(0);
+});
+
+test("the line and its keys keep nobody out, in every size and theme", async () => {
+  explain();
+  await goTo("20");
+  await line().hover();
+  for (const theme of ["dark", "light"] as const) {
+    for (const [width, height] of [
+      [1280, 720],
+      [1920, 1080],
+      [820, 1180],
+    ] as const) {
+      await screen.picture("recording", width, height, theme);
+      const out = await page().evaluate(() => {
+        const { scrollWidth, scrollHeight } = document.documentElement;
+        return scrollWidth > innerWidth || scrollHeight > innerHeight;
+      });
+      expect(out, `${width}x${height}`).toBe(false);
+    }
+    expect(await screen.barriers()).toEqual([]);
+  }
+  await screen.show(1280, 720, "dark");
+  await page().keyboard.press("?");
+  expect(await screen.text(".help")).toContain("Next alarm or marker");
+  await page().keyboard.press("Escape");
+});
+
+test("two people look at different moments of it", async () => {
+  explain();
+  const here_s = await at_s();
+  const other = await Screen.open(`?recording=${kName}`);
+  await other.page.locator(".playhead").waitFor();
+  await other.page.keyboard.press("End");
+  await other.page.locator(".track").focus();
+  await other.page.keyboard.press("End");
+  await until(async () => expect(await at_s(other)).toBeGreaterThan(here_s + 5));
+  expect(await at_s()).toBe(here_s);
+  expect(other.complaints).toEqual([]);
+  await other.close();
+});
+
+test("when the bridge comes back, the page is where it was", async () => {
+  explain();
+  const before_s = await at_s();
+  await flight.station.stop("web-bridge");
+  await until(async () => expect(await screen.text(".banner")).toContain("Reconnecting"));
+  flight.station.start("web-bridge");
+  await flight.station.answers();
+  await until(async () => {
+    expect(await page().locator(".banner").count()).toBe(0);
+    expect(await line().getAttribute("aria-disabled")).toBe("false");
+    expect(await at_s()).toBeCloseTo(before_s, 1);
+  }, 30_000);
+  // The connection that broke is in the console; that is how browsers are.
+  screen.complaints.length = 0;
+});
+
+test("nothing was complained of, and no request left this machine", () => {
+  expect(screen.complaints).toEqual([]);
+  expect(screen.strangers).toEqual([]);
+});
