@@ -2,29 +2,19 @@
 import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
 import { kName, RecordedFlight } from "./recorded_flight";
 import { Screen } from "./screen";
+import { TimeLine } from "./time_line";
 
 const flight = new RecordedFlight();
 let screen: Screen;
+let time_line: TimeLine;
 /** How high UAV1 was when the recording ended. */
 let altitude_then_m: number;
 
 const until = (what: () => Promise<void> | void, timeout = 15_000) =>
   vi.waitFor(what, { timeout, interval: 50 });
 const page = () => screen.page;
-const line = () => page().getByRole("slider", { name: /^Time in the recording/ });
-/** What the time line says is played [s]. */
-async function at_s(of = screen): Promise<number> {
-  const [hours = NaN, minutes = NaN, seconds = NaN] = (await of.text(".transport-now"))
-    .split(":")
-    .map(Number);
-  return 3600 * hours + 60 * minutes + seconds;
-}
-const duration_s = async () => Number(await line().getAttribute("aria-valuemax"));
-async function goTo(text: string): Promise<void> {
-  await page().keyboard.press("g");
-  await page().keyboard.type(text);
-  await page().keyboard.press("Enter");
-}
+const at_s = () => time_line.at_s();
+const goTo = (text: string) => time_line.goTo(text);
 
 function explain(): void {
   onTestFailed(() => {
@@ -44,6 +34,7 @@ afterAll(async () => {
 test("a flight with a lost link is recorded", async () => {
   explain();
   screen = await Screen.open();
+  time_line = new TimeLine(screen);
   altitude_then_m = await flight.loseAndClimb(screen);
 });
 
@@ -103,14 +94,14 @@ test("at the next alarm everything is as it was: the list, the link, the events,
   await until(async () => expect(await screen.text(".alarms")).toContain("UAV3"));
   const { altitude_m } = await screen.uav(1);
   expect(altitude_m).toBeLessThan(altitude_then_m);
-  await line().focus();
+  await time_line.line.focus();
   await page().keyboard.press("End");
   await until(async () =>
     expect(Math.abs((await screen.uav(1)).altitude_m - altitude_then_m)).toBeLessThan(40),
   );
   expect((await screen.uav(1)).altitude_m).toBeGreaterThan(1030);
   await page().keyboard.press("Shift+N");
-  await until(async () => expect(await at_s()).toBeLessThan((await duration_s()) - 1));
+  await until(async () => expect(await at_s()).toBeLessThan((await time_line.duration_s()) - 1));
 });
 
 test("no alarm sounds unless it is switched on", async () => {
@@ -126,16 +117,46 @@ test("no alarm sounds unless it is switched on", async () => {
 
 test("dragged along the line, the fleet follows the hand", async () => {
   explain();
-  const box = await line().boundingBox();
-  if (box === null) throw new Error("the line isn't there");
-  const [length_s, y] = [await duration_s(), box.y + box.height / 2];
-  await page().mouse.move(box.x + 0.2 * box.width, y);
+  const length_s = await time_line.duration_s();
+  const moveTo = async (part: number) => {
+    const { x, y } = await time_line.placeOf(part);
+    await page().mouse.move(x, y);
+  };
+  await moveTo(0.2);
   await page().mouse.down();
-  for (let part = 0.2; part < 0.8; part += 0.05) await page().mouse.move(box.x + part * box.width, y);
-  await page().mouse.move(box.x + 0.8 * box.width, y);
+  for (const part of [0.3, 0.4, 0.5, 0.6, 0.7, 0.8]) await moveTo(part);
   await until(async () => expect(Math.abs((await at_s()) - 0.8 * length_s)).toBeLessThan(0.2));
   await page().mouse.up();
   await until(async () => expect(Math.abs((await at_s()) - 0.8 * length_s)).toBeLessThan(0.2));
+});
+
+test("a finger goes to a time, and two fingers show less of the recording", async () => {
+  explain();
+  const length_s = await time_line.duration_s();
+  const hand = await page().context().newCDPSession(page());
+  const touch = async (type: "touchStart" | "touchMove" | "touchEnd", ...parts: number[]) => {
+    const places = await Promise.all(parts.map((part) => time_line.placeOf(part)));
+    await hand.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: places.map((place, id) => ({ ...place, id })),
+    });
+  };
+  await touch("touchStart", 0.3);
+  await touch("touchMove", 0.4);
+  await touch("touchMove", 0.5);
+  await until(async () => expect(Math.abs((await at_s()) - 0.5 * length_s)).toBeLessThan(0.3));
+  await touch("touchEnd");
+  const before_s = await at_s();
+  await touch("touchStart", 0.45);
+  await touch("touchStart", 0.45, 0.55);
+  await touch("touchMove", 0.3, 0.7);
+  await touch("touchEnd");
+  const whole = screen.button("Whole recording");
+  await whole.waitFor();
+  expect(Math.abs((await at_s()) - before_s)).toBeLessThan(0.2 * length_s);
+  await whole.click();
+  await until(async () => expect(await whole.count()).toBe(0));
+  await hand.detach();
 });
 
 test("backwards, in fast motion, and to its end", async () => {
@@ -146,10 +167,10 @@ test("backwards, in fast motion, and to its end", async () => {
   await page().keyboard.press("b");
   await page().getByLabel("Speed").selectOption("50");
   await page().keyboard.press("Escape");
-  await line().focus();
+  await time_line.line.focus();
   await page().keyboard.press("Home");
   await page().keyboard.press("Space");
-  await until(async () => expect(await at_s()).toBeGreaterThan((await duration_s()) - 0.2));
+  await until(async () => expect(await at_s()).toBeGreaterThan((await time_line.duration_s()) - 0.2));
   await screen.button("Play").waitFor();
   await page().keyboard.press("<");
   await until(async () => expect(await page().getByLabel("Speed").inputValue()).toBe("20"));
@@ -216,7 +237,7 @@ test("a time that is none is told beside the field, with what can be typed", asy
 test("the line and its keys keep nobody out, in every size and theme", async () => {
   explain();
   await goTo("20");
-  await line().hover();
+  await time_line.line.hover();
   for (const theme of ["dark", "light"] as const) {
     for (const [width, height] of [
       [1280, 720],
@@ -242,11 +263,11 @@ test("two people look at different moments of it", async () => {
   explain();
   const here_s = await at_s();
   const other = await Screen.open(`?recording=${kName}`);
+  const there = new TimeLine(other);
   await other.page.locator(".playhead").waitFor();
+  await there.line.focus();
   await other.page.keyboard.press("End");
-  await other.page.locator(".track").focus();
-  await other.page.keyboard.press("End");
-  await until(async () => expect(await at_s(other)).toBeGreaterThan(here_s + 5));
+  await until(async () => expect(await there.at_s()).toBeGreaterThan(here_s + 5));
   expect(await at_s()).toBe(here_s);
   expect(other.complaints).toEqual([]);
   await other.close();
@@ -261,7 +282,7 @@ test("when the bridge comes back, the page is where it was", async () => {
   await flight.station.answers();
   await until(async () => {
     expect(await page().locator(".banner").count()).toBe(0);
-    expect(await line().getAttribute("aria-disabled")).toBe("false");
+    expect(await time_line.line.getAttribute("aria-disabled")).toBe("false");
     expect(await at_s()).toBeCloseTo(before_s, 1);
   }, 30_000);
   // The connection that broke is in the console; that is how browsers are.

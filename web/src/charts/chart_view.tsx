@@ -152,7 +152,7 @@ function Values({ chart, series, playing_s }: ValuesProps) {
   return (
     <ul
       class="chart-values"
-      aria-label={`${chart.title}, ${cursor_s.value === null ? "now" : "at the cursor"}`}
+      aria-label={`${chart.title}, ${cursor_s.value !== null ? "at the cursor" : playing_s === null ? "now" : "as played"}`}
     >
       {series.ids.map((id) => {
         const value = series.values(id, chart.column)?.[at] ?? NaN;

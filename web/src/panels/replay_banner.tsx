@@ -1,9 +1,14 @@
+import { useEffect } from "preact/hooks";
 import { replay } from "../state/replay";
 import "./replay_banner.css";
 
 /** Across the page while it shows what has been: nobody may take it for what is. `live`: there is a live flight to go back to. */
 export function ReplayBanner({ live }: { live: boolean }) {
   const shown = replay.value;
+  const name = shown?.name ?? "";
+  useEffect(() => {
+    document.title = name === "" ? "Skein" : `REPLAY ${name} \u2013 Skein`;
+  }, [name]);
   if (shown === null || shown.name === "") return null;
   return (
     <section class="replay-banner" aria-label="Replay">

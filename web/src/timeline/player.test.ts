@@ -134,3 +134,15 @@ test("after a lost connection it goes on where it was", () => {
     { action: "play" },
   ]);
 });
+
+test("while nothing plays it asks for what changes nothing, so that a dead link is noticed", () => {
+  const { asked, say } = open({ speed: 2, direction: -1 });
+  vi.advanceTimersByTime(9000);
+  expect(asked).toEqual([
+    { action: "speed", speed: -2 },
+    { action: "speed", speed: -2 },
+  ]);
+  say({ state: "playing" });
+  vi.advanceTimersByTime(9000);
+  expect(asked).toHaveLength(2);
+});

@@ -8,6 +8,8 @@ import type { Store } from "../state/store";
 import { loopProblem, nextSpeed, timeAt, type Span } from "./playing";
 
 const kAskAgain_ms = 300;
+/** Well below the silence after which a connection is given up. */
+const kKeepAlive_ms = 4000;
 /** A recording that is being written grows by the second: its outline is fetched again after so much more [s]. */
 const kGrown_s = 10;
 
@@ -52,6 +54,19 @@ export class Player {
     effect(() => {
       this.comeBack();
     });
+    effect(() => this.keepAlive());
+  }
+
+  /** While nothing plays nothing comes, and a link that is dead would not be noticed: so something is asked that changes nothing. */
+  private keepAlive(): (() => void) | undefined {
+    const playback = this.store.playback.value;
+    const still = playback?.state === "paused" || playback?.state === "ended";
+    if (!still || this.store.connection.value.kind !== "open") return undefined;
+    const speed = playback.direction * playback.speed;
+    const timer = setInterval(() => void this.commands.playback({ action: "speed", speed }), kKeepAlive_ms);
+    return () => {
+      clearInterval(timer);
+    };
   }
 
   /** A new connection has a player of its own, at the beginning: it is taken where the last one was. */
