@@ -1,4 +1,4 @@
-import type { PanelProps } from "../shell/panel_list";
+import type { PanelProps } from "../shell/panel_props";
 import { RecordingList } from "./recording_list";
 
 /** The recordings that the bridge serves. */

@@ -29,13 +29,13 @@ export function LoopEnds({ station: { player, store }, disabled }: { station: St
   };
   return (
     <span class="button-row transport-loop" role="group" aria-label="Loop">
-      {end("a", a_s, "[")}
-      {end("b", b_s, "]")}
+      {end("a", a_s, "I")}
+      {end("b", b_s, "O")}
       {a_s !== null && (
         <button
           type="button"
           class="button quiet"
-          title="No loop (\)"
+          title="No loop (Shift+O)"
           aria-label="No loop"
           onMouseDown={(event) => {
             event.preventDefault();

@@ -32,18 +32,18 @@ export function Transport({ station, disabled }: TransportProps) {
     (
       [
         ["Space", "Play or pause", () => void player.toggle(1)],
-        ["b", "Play backwards or pause", () => void player.toggle(-1)],
+        ["j", "Play backwards or pause", () => void player.toggle(-1)],
         [".", "A step of 0.05 s on", () => void player.step(1)],
         [",", "A step of 0.05 s back", () => void player.step(-1)],
         [
-          "n",
+          "Ctrl+ArrowRight",
           "Next alarm or marker",
           () => {
             jump(1);
           },
         ],
         [
-          "Shift+n",
+          "Ctrl+ArrowLeft",
           "Alarm or marker before",
           () => {
             jump(-1);
@@ -59,20 +59,20 @@ export function Transport({ station, disabled }: TransportProps) {
           },
         ],
         [
-          "[",
+          "i",
           "A: the loop begins here",
           () => {
             player.setLoopEnd("a");
           },
         ],
         [
-          "]",
+          "o",
           "B: the loop ends here",
           () => {
             player.setLoopEnd("b");
           },
         ],
-        ["\\", "No loop", () => void player.loop(null)],
+        ["Shift+o", "No loop", () => void player.loop(null)],
       ] as const
     ).map(([keys, label, run]) => ({ keys, label, group: kGroup, run })),
   );
@@ -97,13 +97,13 @@ export function Transport({ station, disabled }: TransportProps) {
   return (
     <div class="transport" role="group" aria-label="Playing">
       <span class="transport-keys">
-        {button("previous", "Alarm or marker before", "Shift+N", () => {
+        {button("previous", "Alarm or marker before", "Ctrl+←", () => {
           jump(-1);
         })}
         {button(
           backwards ? "hold" : "backwards",
           backwards ? "Pause" : "Play backwards",
-          "B",
+          "J",
           () => void player.toggle(-1),
         )}
         {button("step_back", "Step back", ",", () => void player.step(-1))}
@@ -114,7 +114,7 @@ export function Transport({ station, disabled }: TransportProps) {
           () => void player.toggle(1),
         )}
         {button("step", "Step on", ".", () => void player.step(1))}
-        {button("next", "Next alarm or marker", "N", () => {
+        {button("next", "Next alarm or marker", "Ctrl+→", () => {
           jump(1);
         })}
       </span>
