@@ -26,13 +26,6 @@ std::string Escaped(std::string_view key) {
 
 std::string Quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
-std::string Shown(double number) {
-  std::ostringstream text;
-  text.precision(10);
-  text << number;
-  return text.str();
-}
-
 std::string ReadAll(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code error;
@@ -122,6 +115,13 @@ std::size_t Distance(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
+
+std::string Shown(double number) {
+  std::ostringstream text;
+  text.precision(10);
+  text << number;
+  return text.str();
+}
 
 struct Value::Document {
   std::string file;

@@ -20,6 +20,9 @@ struct Range {
   double most = 0;
 };
 
+/// A number as messages tell it.
+std::string Shown(double number);
+
 /// A JSON value that knows its file and its JSON pointer, so that whatever is wrong with it is refused with
 /// both. All readers throw ConfigError when the value is of another type or out of range.
 class Value {

@@ -56,4 +56,7 @@ GeneratedFleet ReadFleet(const Value& value, const Defaults& defaults);
 
 TimelineEntry ReadTimelineEntry(const Value& value);
 
+/// @param scenario all else of the file; whatever can be drawn must be right in it
+Variation ReadVariation(const Value& value, const Scenario& scenario);
+
 }  // namespace skein::config

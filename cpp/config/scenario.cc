@@ -47,9 +47,10 @@ class UniqueIds {
 class ScenarioReader {
  public:
   explicit ScenarioReader(const std::filesystem::path& file)
-      : root_(Value::FromFile(file), {"name", "description", "duration_s", "origin", "ceiling_m", "control",
-                                      "strangers", "link", "uplink_loss", "autopilot_scale", "models",
-                                      "formations", "vehicles", "fleet", "timeline", "timeline_repeat_s"}),
+      : root_(Value::FromFile(file),
+              {"name", "description", "duration_s", "origin", "ceiling_m", "control", "strangers", "link",
+               "uplink_loss", "autopilot_scale", "models", "formations", "vehicles", "fleet", "timeline",
+               "timeline_repeat_s", "vary"}),
         defaults_(ReadDefaults(root_)) {
     scenario_.file = file;
   }
@@ -67,6 +68,7 @@ class ScenarioReader {
     ReadVehicles();
     ReadFormations();
     ReadTimeline();
+    if (const auto vary = root_.Find("vary")) scenario_.vary = ReadVariation(*vary, scenario_);
     return std::move(scenario_);
   }
 

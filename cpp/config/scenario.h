@@ -98,6 +98,41 @@ struct TimelineEntry {
   std::variant<CutLink, RestoreLink, SetLink> action;
 };
 
+/// A number is drawn from it, both ends included.
+struct Span {
+  double least = 0;
+  double most = 0;
+};
+
+/// Each is drawn within so much on either side of the scenario's own.
+struct StartVariation {
+  std::vector<int> vehicles;  ///< whose; empty: everybody's
+  double east_m = 0;
+  double north_m = 0;
+  double up_m = 0;
+  double speed_m_s = 0;
+  double course_rad = 0;
+};
+struct TimelineVariation {
+  double at_s = 0;   ///< one draw for all entries of a UAV
+  double for_s = 0;  ///< a draw for each cut that ends by itself
+};
+/// Instead of the scenario's own; drawn for each UAV.
+struct LinkVariation {
+  std::optional<Span> delay_s;
+  std::optional<Span> jitter_s;
+  std::optional<Span> loss;
+};
+
+/// What differs from run to run of a campaign.
+struct Variation {
+  StartVariation start;
+  TimelineVariation timeline;
+  LinkVariation uplink;
+  LinkVariation downlink;
+  std::optional<Span> autopilot_scale;  ///< times what each UAV's gains would be
+};
+
 struct Scenario {
   std::string name;
   std::string description;  ///< for people; "" when there is none
@@ -109,7 +144,8 @@ struct Scenario {
   std::vector<FormationConfig> formations;
   std::vector<VehicleConfig> vehicles;
   std::vector<TimelineEntry> timeline;  ///< in order of time
-  double timeline_repeat_s = 0;  ///< > 0: the timeline starts again every so often (live demonstrations)
+  double timeline_repeat_s = 0;   ///< > 0: the timeline starts again every so often (live demonstrations)
+  std::optional<Variation> vary;  ///< of campaigns; every other flight is the scenario as it is
 };
 
 /// Reads and checks a scenario. Throws ConfigError.

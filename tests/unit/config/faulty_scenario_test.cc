@@ -23,7 +23,7 @@ std::string Refusal(const std::string& text) {
   return "";
 }
 
-/// A scenario that is right but for one JSON patch operation, and what is said of it.
+/// A scenario that is right but for one JSON patch operation (or several), and what is said of it.
 struct Fault {
   const char* operation;
   const char* message;
@@ -34,7 +34,7 @@ void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.operation; }
 class FaultyScenario : public testing::TestWithParam<Fault> {};
 
 TEST_P(FaultyScenario, IsRefusedWithPlaceAndReason) {
-  const auto patch = nlohmann::json::array({nlohmann::json::parse(GetParam().operation)});
+  const auto patch = nlohmann::json::parse("[" + std::string(GetParam().operation) + "]");
   EXPECT_EQ(Refusal(ThreeUavs().patch(patch).dump()), GetParam().message);
 }
 
@@ -236,6 +236,31 @@ TEST(FaultyFile, ThatIsAFolderOrIsNotThereIsRefused) {
 }
 
 TEST(FaultyFile, IsTheOnlyOneThatIsRefused) { EXPECT_EQ(Refusal(ThreeUavs().dump()), ""); }
+
+INSTANTIATE_TEST_SUITE_P(
+    Variations, FaultyScenario,
+    testing::Values(
+        Fault{R"({"op": "add", "path": "/vary", "value": {"strat": {}}})",
+              R"(/vary/strat: unknown key; did you mean "start"?)"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"start": {"east_m": -5}}})",
+              "/vary/start/east_m: must be 0 .. 20000, is -5"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"start": {"vehicles": [1, 9]}}})",
+              "/vary/start/vehicles/1: there is no UAV 9 in this scenario"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"start": {"vehicles": [2, 2]}}})",
+              "/vary/start/vehicles/0: is there more than once"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"start": {"speed_m_s": 31}}})",
+              "/vary/start/speed_m_s: UAV1 could start outside of 30 .. 90"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"timeline": {"at_s": 21}}})",
+              "/vary/timeline/at_s: 20 s after the start is sooner than that in the timeline"},
+        Fault{R"({"op": "replace", "path": "/timeline/0", "value": {"at_s": 5, "cut_link": 1, "for_s": 3}},
+                {"op": "add", "path": "/vary", "value": {"timeline": {"for_s": 3}}})",
+              "/vary/timeline/for_s: a link is cut for 3 s only in the timeline"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"link": {"up": {"loss": 0.1}}}})",
+              "/vary/link/up/loss: must be an array, is a number"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"link": {"up": {"loss": [0.3, 0.1]}}}})",
+              "/vary/link/up/loss: the first number must not be greater than the second"},
+        Fault{R"({"op": "add", "path": "/vary", "value": {"autopilot_scale": [0.5, 11]}})",
+              "/vary/autopilot_scale/1: must be 0.1 .. 10, is 11"}));
 
 }  // namespace
 }  // namespace skein::config
