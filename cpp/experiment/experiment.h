@@ -33,7 +33,7 @@ struct ExperimentOptions {
 };
 
 /// Simulator, controller and monitor in one process over memq:// on a simulated clock: as fast as it can,
-/// without sleeping, and the same on every run.
+/// without sleeping, and the same on every run. Several may fly at once, a thread each: they share nothing.
 class Experiment {
  public:
   /// Throws what the nodes throw for a scenario that cannot be flown, and std::runtime_error for a log that

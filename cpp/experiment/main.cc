@@ -1,23 +1,23 @@
 #include <spdlog/fmt/fmt.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "bus/node_main.h"
+#include "config/variation.h"
+#include "experiment/campaign_command.h"
 #include "experiment/csv_writer.h"
 #include "experiment/experiment.h"
 #include "experiment/flight_recorder.h"
+#include "experiment/output.h"
 #include "plot/plot.h"
 
 namespace skein::experiment {
@@ -33,6 +33,10 @@ struct Arguments {
   fs::path plot;
   std::optional<double> duration_s;
   std::uint64_t seed = 1;
+  bool vary = false;
+  std::uint64_t runs = 0;  ///< 0: no campaign
+  unsigned jobs = std::max(1u, std::thread::hardware_concurrency());
+  std::vector<fs::path> merged;
   std::string log_level = "error";
 };
 
@@ -48,7 +52,11 @@ std::vector<Run> Runs(const Arguments& arguments) {
   std::vector<Run> runs;
   for (const std::string& name : arguments.scenarios) {
     const fs::path file = config::FindScenario(name);
-    const config::Scenario scenario = config::LoadScenario(file);
+    config::Scenario scenario = config::LoadScenario(file);
+    if (arguments.vary && !scenario.vary) {
+      throw config::ConfigError(file.string() + ": has no \"vary\" block to draw from");
+    }
+    if (arguments.vary) scenario = config::Varied(scenario, arguments.seed);
     const std::string stem = arguments.scenarios.size() > 1 ? file.stem().string() : "";
     if (arguments.controls.empty()) runs.push_back({scenario, stem});
     for (const std::string& control : arguments.controls) {
@@ -75,47 +83,13 @@ fs::path FileOf(const Run& run, const fs::path& file) {
   return file.parent_path() / (file.stem().string() + "-" + label + file.extension().string());
 }
 
-/// Better told before the flight than after it. Leaves an empty file where there was none.
-void CheckWritable(const fs::path& file) {
-  if (file.empty()) return;
-  errno = 0;
-  if (!std::ofstream(file, std::ios::app)) {
-    throw config::ConfigError(file.string() + ": cannot be written: " + std::strerror(errno));
-  }
-}
-
-/// On a terminal, for runs that take a while.
-class Progress {
- public:
-  explicit Progress(double duration_s) : duration_s_(duration_s), shown_(isatty(STDERR_FILENO) == 1) {}
-  ~Progress() {
-    if (wrote_) fmt::print(stderr, "\r\033[K");
-  }
-
-  void Show(double t_s) {
-    const auto now = Clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(200)) return;
-    last_ = now;
-    wrote_ = true;
-    fmt::print(stderr, "\r{:.0f} of {:.0f} s ({:.0f}%)", t_s, duration_s_, 100 * t_s / duration_s_);
-    std::fflush(stderr);
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double duration_s_;
-  bool shown_;
-  bool wrote_ = false;
-  Clock::time_point last_ = Clock::now();
-};
-
 /// Flies one run, writes its files, prints its summary.
 plot::FlightRecord Fly(const Run& run, const Arguments& arguments) {
   std::optional<CsvWriter> csv;
   if (!arguments.csv.empty()) csv.emplace(FileOf(run, arguments.csv));
   FlightRecorder recorder(run.scenario, run.label);
   const double duration_s = arguments.duration_s.value_or(run.scenario.duration_s);
-  Progress progress(duration_s);
+  Progress progress(duration_s, "s");
 
   ExperimentOptions options;
   options.duration_s = duration_s;
@@ -137,18 +111,10 @@ plot::FlightRecord Fly(const Run& run, const Arguments& arguments) {
   return recorder.record();
 }
 
-void WritePlot(const fs::path& file, const std::string& title,
-               const std::vector<plot::FlightRecord>& records) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << plot::PlotSvg(title, records);
-  stream.flush();
-  if (!stream) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
 void Describe(CLI::App& app, Arguments& arguments) {
-  app.add_option("scenario", arguments.scenarios, "Scenarios: files, or names of those that ship")
-      ->required()
-      ->type_name("SCENARIO");
+  auto* scenarios =
+      app.add_option("scenario", arguments.scenarios, "Scenarios: files, or names of those that ship")
+          ->type_name("SCENARIO");
   app.add_option("--control", arguments.controls,
                  "Flies all formations under this control; several, with commas between, one after the other")
       ->delimiter(',')
@@ -160,16 +126,83 @@ void Describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--duration", arguments.duration_s, "Seconds to fly, instead of the scenario's own")
       ->check(CLI::Range(0.05, 1e6))
       ->type_name("S");
-  app.add_option("--seed", arguments.seed, "Of lossy and jittered links")
+  app.add_option("--seed", arguments.seed, "Of lossy and jittered links, and of --vary and --runs")
       ->capture_default_str()
       ->type_name("N");
+  auto* vary = app.add_flag("--vary", arguments.vary,
+                            "Flies the variation that --runs draws from this seed, to look at one run");
+  auto* runs =
+      app.add_option("--runs", arguments.runs,
+                     "A campaign: so many runs of one scenario, run i with the variation of seed + i; "
+                     "--csv gets a row a run, --plot the spread")
+          ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+          ->type_name("N")
+          ->excludes(vary);
+  app.add_option("--jobs", arguments.jobs, "Runs of a campaign at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str()
+      ->type_name("N")
+      ->needs(runs);
+  app.add_option("--merge", arguments.merged,
+                 "Flies nothing: the CSVs of parts of a campaign as one, sorted into --csv, with its summary")
+      ->type_name("CSV")
+      ->expected(1, -1)
+      ->excludes(scenarios)
+      ->excludes(runs)
+      ->excludes(vary);
   app.add_option("--log-level", arguments.log_level, "What the nodes say on standard error")
       ->capture_default_str()
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "critical", "off"}));
   app.set_version_flag("--version", "flight-experiment " SKEIN_VERSION);
   app.footer(
-      "With several runs, --csv and --log write a file each: flight.csv becomes flight-turn-paper.csv.\n"
+      "With several scenarios or controls, --csv and --log write a file each: flight.csv becomes "
+      "flight-turn-paper.csv.\n"
+      "A campaign on several machines: parallel flight-experiment turn --runs 50 --seed {} --csv "
+      "part-{}.csv\n"
+      "::: 1 51 101, then flight-experiment --merge part-*.csv --csv campaign.csv --plot campaign.svg\n"
       "Everything is the same on every run but the line \"Real time\".");
+}
+
+/// What is wrong with options that are right each by itself; "" when nothing is.
+std::string Conflict(const Arguments& arguments) {
+  if (arguments.merged.empty() && arguments.scenarios.empty()) return "name a scenario, or CSVs to --merge";
+  if (arguments.runs == 0) return "";
+  if (arguments.scenarios.size() > 1 || arguments.controls.size() > 1) {
+    return "--runs flies one scenario, under one control";
+  }
+  if (!arguments.log.empty())
+    return "--log goes with single flights only: see --vary for a run of a campaign";
+  const std::uint64_t last = arguments.seed + arguments.runs - 1;
+  return last < arguments.seed ? "--seed and --runs go beyond the greatest seed" : "";
+}
+
+int RunCampaign(const Arguments& arguments) {
+  Campaign campaign;
+  campaign.csv = arguments.csv;
+  campaign.plot = arguments.plot;
+  campaign.options.runs = arguments.runs;
+  campaign.options.first_seed = arguments.seed;
+  campaign.options.jobs = arguments.jobs;
+  campaign.options.duration_s = arguments.duration_s;
+  campaign.options.stop = [] { return interrupted != 0; };
+  return Fly(Runs(arguments).front().scenario, campaign);
+}
+
+int RunFlights(const Arguments& arguments) {
+  const std::vector<Run> runs = Runs(arguments);
+  CheckWritable(arguments.plot);
+  for (const Run& run : runs) {
+    CheckWritable(FileOf(run, arguments.csv));
+    CheckWritable(FileOf(run, arguments.log));
+  }
+  std::vector<plot::FlightRecord> records;
+  for (const Run& run : runs) {
+    records.push_back(Fly(run, arguments));
+    if (interrupted != 0) break;
+  }
+  const std::string title = arguments.scenarios.size() == 1 ? runs.front().scenario.name : "Flights compared";
+  if (!arguments.plot.empty()) WriteFile(arguments.plot, plot::PlotSvg(title, records));
+  return bus::kExitGood;
 }
 
 int Main(int argc, char** argv) {
@@ -182,34 +215,25 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? bus::kExitGood : bus::kExitUsage;
   }
+  if (const std::string conflict = Conflict(arguments); !conflict.empty()) {
+    fmt::print(stderr, "flight-experiment: {}\n", conflict);
+    return bus::kExitUsage;
+  }
   bus::StartLogging("flight-experiment", arguments.log_level);
-  std::vector<Run> runs;
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
+  int exit_code = bus::kExitGood;
   try {
-    runs = Runs(arguments);
-    CheckWritable(arguments.plot);
-    for (const Run& run : runs) {
-      CheckWritable(FileOf(run, arguments.csv));
-      CheckWritable(FileOf(run, arguments.log));
-    }
+    exit_code = !arguments.merged.empty() ? Merge(arguments.merged, arguments.csv, arguments.plot)
+                : arguments.runs > 0      ? RunCampaign(arguments)
+                                          : RunFlights(arguments);
   } catch (const config::ConfigError& error) {
     fmt::print(stderr, "flight-experiment: {}\n", error.what());
     return bus::kExitUsage;
-  }
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, [](int) { interrupted = 1; });
-  try {
-    std::vector<plot::FlightRecord> records;
-    for (const Run& run : runs) {
-      records.push_back(Fly(run, arguments));
-      if (interrupted != 0) break;
-    }
-    const std::string title =
-        arguments.scenarios.size() == 1 ? runs.front().scenario.name : "Flights compared";
-    if (!arguments.plot.empty()) WritePlot(arguments.plot, title, records);
   } catch (const std::exception& error) {
     fmt::print(stderr, "flight-experiment: {}\n", error.what());
     return bus::kExitFailed;
   }
-  if (interrupted == 0) return bus::kExitGood;
+  if (interrupted == 0) return exit_code;
   fmt::print(stderr, "flight-experiment: interrupted; what was written ends there\n");
   return bus::kExitFailed;
 }

@@ -152,6 +152,15 @@ std::vector<Point> Simplified(const std::vector<Point>& points, double tolerance
   return kept;
 }
 
+std::string SvgStart(double width, double height) {
+  return fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} "
+      "{1:g}\" "
+      "font-family=\"'DejaVu Sans', Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
+      "fill=\"white\"/>\n",
+      width, height);
+}
+
 std::string Sample(double x, double y, double length, const Stroke& stroke) {
   return Line(x, y, x + length, y, Attributes(stroke));
 }

@@ -52,6 +52,9 @@ std::string Draw(const Chart& chart, const Box& box);
 /// A level piece of line, for a legend.
 std::string Sample(double x, double y, double length, const Stroke& stroke);
 
+/// How an SVG figure of so many pixels begins; it ends with "</svg>".
+std::string SvgStart(double width, double height);
+
 /// One line of text. @param anchor "start", "middle" or "end".
 std::string Text(double x, double y, const std::string& text, const std::string& anchor, double size = 12,
                  const std::string& more = "");

@@ -157,12 +157,7 @@ std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& r
 
   const std::vector<Chart> charts = ChartsOf(runs, style, options);
   const double height = top + static_cast<double>(charts.size() / 2) * kChartHeight + kMargin;
-  std::string svg = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:g}\" height=\"{1:g}\" viewBox=\"0 0 {0:g} "
-      "{1:g}\" "
-      "font-family=\"'DejaVu Sans', Helvetica, Arial, sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
-      "fill=\"white\"/>\n",
-      kWidth, height);
+  std::string svg = SvgStart(kWidth, height);
   svg += Text(kWidth / 2, 28, title, "middle", 16, "font-weight=\"bold\"");
   for (std::size_t i = 0; i < legend.size(); ++i) {
     const std::size_t line = i / per_line;
