@@ -40,6 +40,7 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   AddRecord();
   log_.Add(app_, [this](LogCommandLine::Command command) { offline_command_ = std::move(command); });
   AddSpy();
+  AddDrops();
 }
 
 void CommandLine::AddLink() {

@@ -7,6 +7,7 @@
 
 #include "cli/alarms.h"
 #include "cli/commands.h"
+#include "cli/drops.h"
 #include "cli/log/log_command_line.h"
 #include "cli/spy.h"
 
@@ -35,6 +36,7 @@ class CommandLine {
   void AddAlarms();
   void AddRecord();
   void AddSpy();
+  void AddDrops();
 
   CLI::App app_;
   std::string lcm_url_;
@@ -46,6 +48,7 @@ class CommandLine {
   StatusOptions status_;
   AlarmsOptions alarms_;
   SpyOptions spy_;
+  DropsOptions drops_;
   std::vector<std::string> alarm_ids_;
   double shelve_s_ = 60;
   std::vector<std::string> vehicles_;
