@@ -164,8 +164,8 @@ std::filesystem::path FindNamedScenario(const std::string& name, const std::file
 /// such.
 std::optional<Scenario> ReadScenarioOfFleet(const std::string& name, const std::filesystem::path& own);
 
-/// The bare name of the scenario that has this "name", of those that FindScenario finds; none when there is no
-/// such. Quick: the files are not checked.
+/// The bare name of the scenario that has this "name", of those that FindScenario finds; none when there is
+/// no such. Quick: the files are not checked.
 std::optional<std::string> BareNameOf(const std::string& name);
 
 /// A scenario as a list of them shows it.
