@@ -46,7 +46,7 @@ export interface RecordingList {
 
 export interface ListedRecording {
   name: string;
-  scenario: string;
+  scenario: string | null;
   start_utime: number | null;
   duration_s: number | null;
   bytes: number;

@@ -97,7 +97,7 @@ interface RecordingProps {
 function Recording({ recording, open, no_delete, remove }: RecordingProps) {
   const { name, scenario, parts, problem, recording_now, warnings } = recording;
   const [when, what, alarms] = [whenText(recording), whatText(recording), alarmsText(recording)];
-  const title = scenario === "" ? name : scenario;
+  const title = scenario === null || scenario === "" ? name : scenario;
   return (
     <li class={open ? "recording open" : "recording"} aria-current={open}>
       <h3>

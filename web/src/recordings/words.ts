@@ -36,7 +36,7 @@ export function alarmsText({ alarms, warnings }: ListedRecording): string {
 export function found(recordings: readonly ListedRecording[], text: string): ListedRecording[] {
   const words = text.toLowerCase().split(/\s+/).filter(Boolean);
   return recordings.filter((recording) => {
-    const told = `${recording.scenario} ${recording.name} ${whenText(recording)}`.toLowerCase();
+    const told = `${recording.scenario ?? ""} ${recording.name} ${whenText(recording)}`.toLowerCase();
     return words.every((word) => told.includes(word));
   });
 }
