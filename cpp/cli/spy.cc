@@ -147,8 +147,8 @@ void SpyChannel(Station& station, const SpyOptions& options, std::ostream& out) 
       out.flush();
     } else {
       const Traffic::Rate rate = traffic.RateOf(channel, executor.Now());
-      screen.Show(fmt::format("{}  {}  {:.1f} Hz  {:.1f} kB/s  {} heard{}\n", options.channel,
-                              channel.type, rate.messages_s, rate.bytes_s / 1e3, channel.count,
+      screen.Show(fmt::format("{}  {}  {:.1f} Hz  {:.1f} kB/s  {} heard{}\n", options.channel, channel.type,
+                              rate.messages_s, rate.bytes_s / 1e3, channel.count,
                               channel.undecodable > 0 ? fmt::format(", {} bad", channel.undecodable) : "") +
                   MessageText(fields, Terminal().columns));
     }
