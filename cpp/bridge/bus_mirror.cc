@@ -66,7 +66,8 @@ BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
 void BusMirror::Hear(const fleet_roster_t& roster) {
   const bool same_session = !roster_shown_.is_null() && roster.session_id == roster_.session_id;
   if (same_session && roster.revision == roster_.revision) return;
-  if (!same_session) StartAnew();
+  // The first one ends no flight: what was heard before it is of this one.
+  if (!same_session && !roster_shown_.is_null()) StartAnew();
   if (roster.start_utime != roster_.start_utime) history_.Clear();
   if (!same_session || roster.scenario != roster_.scenario) {
     const auto scenario = config::ReadScenarioOfFleet(roster.scenario, {}).value_or(config::Scenario());

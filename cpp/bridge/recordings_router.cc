@@ -61,8 +61,10 @@ bool RecordingsRouter::Deletes(std::string_view target) const {
 }
 
 std::string RecordingsRouter::Watched(std::string_view target) const {
-  const auto named = QueryValue(QueryOf(target), "recording");
-  if (named) return *named;
+  const std::string_view query = QueryOf(target);
+  if (const auto named = QueryValue(query, "recording")) return *named;
+  // Who asks for a recording by a name that can't be read must not be shown the live bus instead.
+  if (QueryWithout(query, {"recording"}).size() != query.size()) return "/";
   return recordings_ ? recordings_->only : "";
 }
 

@@ -52,6 +52,7 @@ class CapturedFlight {
     command.utime = tick->utime;
     command.session_id = bus.session_id();
     command.request_id = 1;
+    command.to_session_id = command.session_id;  // the nodes of an experiment start at the same moment
     bus.Publish(channel, command);
   }
 

@@ -180,7 +180,7 @@ const std::string kAssembly = kScenarios + "paper-assembly.json";
 
 INSTANTIATE_TEST_SUITE_P(
     BadArguments, FlightExperimentRefuses,
-    ::testing::Values(BadArguments{{}, "scenario is required"},
+    ::testing::Values(BadArguments{{}, "name a scenario"},
                       BadArguments{{"no-such-scenario"}, "no-such-scenario: there is no such file"},
                       BadArguments{{"/"}, "/: is a folder"},
                       BadArguments{{kAssembly, "--control", "magic"}, "magic"},

@@ -49,7 +49,7 @@ TEST_F(PlayerTest, BeginsPausedWithAPictureOfTheBeginning) {
   EXPECT_EQ(texts_[1]["type"], "hello");
   EXPECT_EQ(playback()["state"], "paused");
   EXPECT_EQ(playback()["t_s"], 0);
-  EXPECT_NEAR(playback()["duration_s"].get<double>(), 300, 1);
+  EXPECT_NEAR(playback()["duration_s"].get<double>(), 400, 1);
   Forget();
   Wait(5);
   EXPECT_TRUE(texts_.empty());

@@ -103,7 +103,7 @@ TEST_F(RecordingsHttp, ListsRecordingsAndIndexesThemInTheBackground) {
   EXPECT_EQ(good["markers"], 1);
   EXPECT_EQ(good["recording_now"], false);
   EXPECT_GE(good["alarms"], 1);
-  EXPECT_NEAR(good["duration_s"].get<double>(), 300, 1);
+  EXPECT_NEAR(good["duration_s"].get<double>(), 400, 1);
   EXPECT_TRUE(fs::exists(folder_.path() / (std::string(kName) + ".skein-index")));
 }
 
@@ -126,7 +126,7 @@ TEST_F(RecordingsHttp, DescribesARecording) {
   EXPECT_EQ((*stranger)["count"], 3);
   const auto& density = recording["density"];
   EXPECT_EQ(density["bin_s"], 1);
-  EXPECT_EQ(density["events"].size(), 301U);
+  EXPECT_EQ(density["events"].size(), 401U);
 }
 
 TEST_F(RecordingsHttp, GivesTheCurvesOfTheWholeFlight) {
@@ -134,7 +134,7 @@ TEST_F(RecordingsHttp, GivesTheCurvesOfTheWholeFlight) {
   EXPECT_EQ(response.status, 200);
   std::uint32_t samples = 0;
   std::memcpy(&samples, response.body.data() + 16, sizeof samples);
-  EXPECT_NEAR(samples, 300, 3);
+  EXPECT_NEAR(samples, 400, 3);
   EXPECT_EQ(Get(std::string("/api/history?recording=") + kName + "&ids=x").status, 400);
   EXPECT_EQ(Get(std::string("/api/history?recording=") + kName + "&ids=1&at=x").status, 400);
 }

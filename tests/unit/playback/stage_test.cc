@@ -28,6 +28,8 @@ std::map<std::string, std::string> Picture(const Stage& stage) {
     json message = json::parse(*frame.bytes);
     message.erase("line");
     const std::string type = message["type"];
+    // What is repeated and does not change keeps the time at which it was heard first.
+    if (type == "roster" || type == "path" || type == "formation") message.erase("utime");
     picture[type == "event" ? "event" + std::to_string(1000 + events++) : frame.key + type] = message.dump();
   }
   return picture;
