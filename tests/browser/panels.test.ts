@@ -62,21 +62,24 @@ test("the fleet is there, with a warning and a lost link", async () => {
   );
 });
 
-test.each(["Formation", "Plan", "Payload", "Simulation"])("the drawer: %s", async (name) => {
+const kDrawer = ["Formation", "Plan", "Payload", "Simulation", "Recordings"];
+const kTabs = ["Alarms", "Events", "Table", "Charts"];
+
+test.each(kDrawer)("the drawer: %s", async (name) => {
   await screen.button(name).click();
   await screen.page.locator(".drawer", { hasText: name }).waitFor();
   await lookAt(name);
   await screen.page.getByRole("button", { name: `Close ${name}` }).click();
 });
 
-test.each(["Alarms", "Events", "Table", "Charts"])("the tab: %s", async (name) => {
+test.each(kTabs)("the tab: %s", async (name) => {
   await screen.page.getByRole("tab", { name, exact: true }).click();
   await lookAt(name);
 });
 
 test("no panel was left out", async () => {
-  expect(await namesOf(".rail-button")).toEqual(["Formation", "Plan", "Payload", "Simulation"]);
-  expect(await namesOf("[role=tab]")).toEqual(["Alarms", "Events", "Table", "Charts"]);
+  expect(await namesOf(".rail-button")).toEqual(kDrawer);
+  expect(await namesOf("[role=tab]")).toEqual(kTabs);
 });
 
 test("settings and help", async () => {

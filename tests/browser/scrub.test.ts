@@ -82,8 +82,17 @@ test("at the next alarm everything is as it was: the list, the link, the events,
   expect(await screen.text(".events")).not.toContain("UAV3");
   await page().keyboard.press("Control+ArrowRight");
   await until(async () => expect(await at_s()).toBeGreaterThan(1));
-  // There may be others before it.
-  for (let i = 0; i < 20 && (await page().locator(".events li", { hasText: "UAV3" }).count()) === 0; i += 1) {
+  // There may be others before it. The picture of a moment comes after its time.
+  const told = () =>
+    page()
+      .locator(".events li", { hasText: "UAV3" })
+      .first()
+      .waitFor({ timeout: 3000 })
+      .then(
+        () => true,
+        () => false,
+      );
+  for (let i = 0; i < 20 && !(await told()); i += 1) {
     const before_s = await at_s();
     await page().keyboard.press("Control+ArrowRight");
     await until(async () => expect(await at_s()).toBeGreaterThan(before_s));

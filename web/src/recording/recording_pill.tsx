@@ -29,7 +29,7 @@ export function RecordingPill({ station }: PanelProps) {
   if (view.kind === "none") return null;
   const label =
     view.kind === "recording"
-      ? `Recording for ${clock(view.elapsed_s)}, ${byteSize(view.status.bytes)}. Recording… (K)`
+      ? `Rec ${clock(view.elapsed_s)} ${byteSize(view.status.bytes)}: the flight is recorded. Recording… (K)`
       : `Not recording: ${view.why}. Recording… (K)`;
   return (
     <div class="recording" ref={root}>
@@ -42,8 +42,7 @@ export function RecordingPill({ station }: PanelProps) {
               <svg viewBox="0 0 10 10" aria-hidden="true">
                 <circle cx="5" cy="5" r="4" />
               </svg>
-              <span>Rec</span>
-              <span class="recording-time">{clock(view.elapsed_s)}</span>
+              <span>Rec</span> <span class="recording-time">{clock(view.elapsed_s)}</span>{" "}
               <span class="recording-size">{byteSize(view.status.bytes)}</span>
             </>
           ) : (
@@ -51,7 +50,9 @@ export function RecordingPill({ station }: PanelProps) {
               <svg viewBox="0 0 10 10" aria-hidden="true">
                 <path d="M1 1L9 9M9 1L1 9" />
               </svg>
-              <span>Not recording</span>
+              <span>
+                Not rec<span class="recording-rest">ording</span>
+              </span>
             </>
           )
         }
