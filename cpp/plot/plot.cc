@@ -156,7 +156,7 @@ std::string PlotSvg(const std::string& title, const std::vector<FlightRecord>& r
   const double top = kTitleHeight + kLegendLine * static_cast<double>(legend_lines) + 8;
 
   const std::vector<Chart> charts = ChartsOf(runs, style, options);
-  const double height = top + static_cast<double>(charts.size() / 2) * kChartHeight + kMargin;
+  const double height = top + kChartHeight * static_cast<double>(charts.size()) / 2 + kMargin;
   std::string svg = SvgStart(kWidth, height);
   svg += Text(kWidth / 2, 28, title, "middle", 16, "font-weight=\"bold\"");
   for (std::size_t i = 0; i < legend.size(); ++i) {

@@ -74,7 +74,6 @@ class TrackReader {
   LogSource& source_;
   const LogTracksOptions& options_;
   FlightTracks tracks_;
-  double now_s_ = 0;
   bool is_in_window_ = false;
   config::Origin origin_;
   std::int64_t session_id_ = -1;
