@@ -22,6 +22,13 @@ const kFlags = [
 export const until = (what: () => Promise<void> | void, timeout = 15_000): Promise<void> =>
   vi.waitFor(what, { timeout, interval: 50 });
 
+/** Whether it comes in sight within that time. */
+export const appears = (what: Locator, timeout: number): Promise<boolean> =>
+  what.waitFor({ timeout }).then(
+    () => true,
+    () => false,
+  );
+
 export interface Uav {
   level: string;
   downlink: string;

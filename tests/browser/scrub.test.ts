@@ -1,7 +1,7 @@
 /** A recorded flight is opened and scrubbed through: played, reversed, stepped, looped, dragged; at any moment of it everything is as it was. */
 import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
 import { kName, RecordedFlight } from "./recorded_flight";
-import { Screen } from "./screen";
+import { Screen, appears } from "./screen";
 import { TimeLine } from "./time_line";
 
 const flight = new RecordedFlight();
@@ -83,16 +83,8 @@ test("at the next alarm everything is as it was: the list, the link, the events,
   await page().keyboard.press("Control+ArrowRight");
   await until(async () => expect(await at_s()).toBeGreaterThan(1));
   // There may be others before it. The picture of a moment comes after its time.
-  const told = () =>
-    page()
-      .locator(".events li", { hasText: "UAV3" })
-      .first()
-      .waitFor({ timeout: 3000 })
-      .then(
-        () => true,
-        () => false,
-      );
-  for (let i = 0; i < 20 && !(await told()); i += 1) {
+  const of_uav3 = page().locator(".events li", { hasText: "UAV3" }).first();
+  for (let i = 0; i < 20 && !(await appears(of_uav3, 3000)); i += 1) {
     const before_s = await at_s();
     await page().keyboard.press("Control+ArrowRight");
     await until(async () => expect(await at_s()).toBeGreaterThan(before_s));

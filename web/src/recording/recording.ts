@@ -1,4 +1,5 @@
 /** Whether the flight is being recorded, as a page may say it: believed only for as long as flight-recorder is heard. */
+import { replay } from "../state/replay";
 import { person_name } from "../control/control";
 import type { Commands, Outcome } from "../link/commands";
 import type { RecordingBody, RecordingStatus } from "../link/messages";
@@ -19,7 +20,8 @@ export type RecordingView =
   | { kind: "not"; why: string; wanted: boolean; reachable: boolean };
 
 export function recordingView(store: Store, now_ms: number): RecordingView {
-  if (store.connection.value.kind !== "open") return { kind: "none" };
+  // Of a replay nothing is recorded, and nobody misses it.
+  if (store.connection.value.kind !== "open" || replay.value !== null) return { kind: "none" };
   const status = store.recording.value;
   const silence_ms = now_ms - store.recording_ms;
   if (status !== null && silence_ms < kSilence_ms) {

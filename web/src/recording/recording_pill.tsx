@@ -50,9 +50,7 @@ export function RecordingPill({ station }: PanelProps) {
               <svg viewBox="0 0 10 10" aria-hidden="true">
                 <path d="M1 1L9 9M9 1L1 9" />
               </svg>
-              <span>
-                Not rec<span class="recording-rest">ording</span>
-              </span>
+              <span class="recording-word">Not recording</span>
             </>
           )
         }

@@ -21,22 +21,26 @@ export function Popover({ label, button, children, ...props }: PopoverProps) {
       if (event.target instanceof Node && root.current?.contains(event.target)) return;
       open.value = false;
     };
+    const escape = (event: KeyboardEvent) => {
+      if (event.key !== "Escape" || !(event.target instanceof Node)) return;
+      // A button within that went away when it was pressed leaves the focus to nobody.
+      if (event.target !== document.body && root.current?.contains(event.target) !== true) return;
+      event.preventDefault();
+      event.stopPropagation();
+      open.value = false;
+      root.current?.querySelector("button")?.focus();
+    };
+    document.addEventListener("keydown", escape, { capture: true });
     document.addEventListener("pointerdown", close);
     document.addEventListener("focusin", close);
     return () => {
+      document.removeEventListener("keydown", escape, { capture: true });
       document.removeEventListener("pointerdown", close);
       document.removeEventListener("focusin", close);
     };
   }, [open, open.value]);
-  const press = (event: KeyboardEvent) => {
-    if (event.key !== "Escape" || !open.value) return;
-    event.preventDefault();
-    event.stopPropagation();
-    open.value = false;
-    root.current?.querySelector("button")?.focus();
-  };
   return (
-    <div class="popover" ref={root} onKeyDown={press}>
+    <div class="popover" ref={root}>
       <button
         type="button"
         class={props.class ?? "bar-button"}
