@@ -144,9 +144,10 @@ std::string CampaignSvg(const std::vector<CampaignRow>& rows) {
       return std::string_view(candidate.column) == kPlotted[i];
     });
     const auto index = static_cast<std::size_t>(metric - kMetrics.begin());
+    const std::size_t row = i / 2;
     svg += plot::Draw(Distribution(rows, index),
                       {kMargin + chart_width * static_cast<double>(i % 2),
-                       kTitleHeight + kChartHeight * static_cast<double>(i / 2), chart_width, kChartHeight});
+                       kTitleHeight + kChartHeight * static_cast<double>(row), chart_width, kChartHeight});
   }
   return svg + "</svg>\n";
 }

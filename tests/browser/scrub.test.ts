@@ -79,7 +79,7 @@ test("at the next alarm everything is as it was: the list, the link, the events,
   await page().keyboard.type("0");
   await page().keyboard.press("Enter");
   await until(async () => expect(await at_s()).toBe(0));
-  expect(await screen.text(".events")).not.toContain("UAV3");
+  await until(async () => expect(await screen.text(".events")).not.toContain("UAV3"));
   await page().keyboard.press("Control+ArrowRight");
   await until(async () => expect(await at_s()).toBeGreaterThan(1));
   // There may be others before it. The picture of a moment comes after its time.
@@ -167,7 +167,9 @@ test("backwards, in fast motion, and to its end", async () => {
   await page().keyboard.press("j");
   await until(async () => expect(await at_s()).toBeLessThan(from_s - 1));
   await page().keyboard.press("j");
+  await screen.button("Play").waitFor();
   await page().getByLabel("Speed").selectOption("50");
+  await until(async () => expect(await page().getByLabel("Speed").inputValue()).toBe("50"));
   await page().keyboard.press("Escape");
   await time_line.line.focus();
   await page().keyboard.press("Home");
