@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { Screen, until } from "./screen";
 import { explain, Station } from "./station";
-import { png, writePmtiles, writeTileFolder } from "./tiles_for_tests";
+import { png, writePmtiles, writeTileFolder, writeVectorPmtiles } from "./tiles_for_tests";
 
 const kFolder = mkdtempSync(`${tmpdir()}/skein-tiles-`);
 const kFolderColour = [90, 140, 60] as const;
@@ -15,12 +15,22 @@ const kServerColour = [150, 90, 60] as const;
 
 const station = new Station({ scenario: "map.json", bridge: ["--tiles", `${kFolder}/county`] });
 const with_archive = new Station({ scenario: "map.json", bridge: ["--tiles", `${kFolder}/area.pmtiles`] });
+const with_protomaps = new Station({
+  scenario: "map.json",
+  bridge: ["--tiles", `${kFolder}/vector.pmtiles`],
+});
+const with_other_schema = new Station({
+  scenario: "map.json",
+  bridge: ["--tiles", `${kFolder}/omt.pmtiles`],
+});
 let screen: Screen;
 let tile_server: Server | null = null;
 
 beforeAll(async () => {
   writeTileFolder(`${kFolder}/county`, 40.09, 116.58, kFolderColour);
   writePmtiles(`${kFolder}/area.pmtiles`, kArchiveColour);
+  writeVectorPmtiles(`${kFolder}/vector.pmtiles`, "water", "roads", ["earth"]);
+  writeVectorPmtiles(`${kFolder}/omt.pmtiles`, "water", "transportation", ["landcover", "place"]);
   station.start();
   await station.answers();
   screen = await Screen.open();
@@ -28,7 +38,8 @@ beforeAll(async () => {
 
 afterAll(async () => {
   await screen?.close();
-  await Promise.all([station.stopAll(), with_archive.stopAll()]);
+  const stations = [station, with_archive, with_protomaps, with_other_schema];
+  await Promise.all(stations.map((one) => one.stopAll()));
   tile_server?.close();
   rmSync(kFolder, { recursive: true, force: true });
 });
@@ -71,6 +82,42 @@ test("a PMTiles file is read in parts and drawn", async () => {
   expect(await screen.text(".leaflet-control-attribution")).toContain("Test survey");
 });
 
+for (const [schema, vectors, before] of [
+  ["Protomaps", with_protomaps, with_archive],
+  ["another", with_other_schema, with_protomaps],
+] as const) {
+  test(`vector tiles of ${schema} schema are drawn, in the greys of the theme`, async () => {
+    explain(before, vectors);
+    await before.stop("web-bridge");
+    vectors.start("web-bridge");
+    await vectors.answers();
+    // In each tile a stripe of water on the left, ground on the right.
+    const greys = () =>
+      screen.page.evaluate(() => {
+        const tile = document.querySelector<HTMLCanvasElement>("canvas.leaflet-tile-loaded");
+        const at = (x: number) => tile?.getContext("2d")?.getImageData(x * tile.width, 5, 1, 1).data[0] ?? -1;
+        return [at(0.25), at(0.75)] as [number, number];
+      });
+    const seen: number[] = [];
+    for (const theme of ["dark", "light"] as const) {
+      await screen.page.emulateMedia({ colorScheme: theme });
+      await until(async () => {
+        const [water, ground] = await greys();
+        expect(Math.abs(water - ground)).toBeGreaterThan(20);
+        if (theme === "dark") expect(ground).toBeLessThan(100);
+        else expect(ground).toBeGreaterThan(150);
+      }, 30_000);
+      seen.push(...(await greys()));
+      await screen.page.screenshot({
+        path: `${import.meta.dirname}/test-results/map-vector-${schema}-${theme}.png`,
+      });
+    }
+    expect(new Set(seen).size).toBe(4);
+    expect(await screen.text(".leaflet-control-attribution")).toContain("Vector survey");
+    await screen.page.emulateMedia({ colorScheme: "dark" });
+  });
+}
+
 test("tiles of a server come with its attribution; when it dies, that is told, and the outlines are seen again", async () => {
   const serve = (port: number) =>
     new Promise<Server>((resolve) => {
@@ -94,7 +141,7 @@ test("tiles of a server come with its attribution; when it dies, that is told, a
     ],
   });
   explain(with_server);
-  await with_archive.stop("web-bridge");
+  await with_other_schema.stop("web-bridge");
   with_server.start("web-bridge");
   try {
     await with_server.answers();

@@ -1,6 +1,7 @@
 /** Maps of one colour, written by the test that shows them. */
 import { mkdirSync, writeFileSync } from "node:fs";
 import { crc32, deflateSync } from "node:zlib";
+import { fromGeojsonVt } from "vt-pbf";
 
 type Rgb = readonly [number, number, number];
 
@@ -53,15 +54,55 @@ export function writeTileFolder(
   }
 }
 
-/** A PMTiles file of the whole world from zoom 0 to 14: the specification's version 3, nothing compressed, one tile for all places. */
+const kExtent = 4096;
+const kPolygon = 3;
+const kLine = 2;
+
+/** A vector tile of water in two upright stripes, with a road across all, named as a schema names its layers. */
+export function vectorTile(water: string, roads: string): Buffer {
+  const stripe = (left: number) => {
+    const right = left + kExtent / 4;
+    return [
+      [left, 0],
+      [right, 0],
+      [right, kExtent],
+      [left, kExtent],
+      [left, 0],
+    ] as [number, number][];
+  };
+  const feature = (type: 2 | 3, geometry: [number, number][][], kind: string) => ({
+    features: [{ type, geometry, tags: { kind } }],
+  });
+  const road: [number, number][] = [
+    [0, kExtent / 8],
+    [kExtent, kExtent / 8],
+  ];
+  const layers = {
+    [water]: feature(kPolygon, [stripe(0), stripe(kExtent / 2)], "ocean"),
+    [roads]: feature(kLine, [road], "highway"),
+  };
+  return Buffer.from(fromGeojsonVt(layers as never, { version: 2, extent: kExtent }));
+}
+
+/** A PMTiles file of tiles of one colour. */
 export function writePmtiles(file: string, colour: Rgb): void {
-  const tile = png(colour);
+  writeArchive(file, 2, png(colour), { attribution: "Test survey" });
+}
+
+/** A PMTiles file of vector tiles. */
+export function writeVectorPmtiles(file: string, water: string, roads: string, others: string[]): void {
+  const vector_layers = [...others, water, roads].map((id) => ({ id, fields: {} }));
+  writeArchive(file, 1, vectorTile(water, roads), { attribution: "Vector survey", vector_layers });
+}
+
+/** The whole world from zoom 0 to 14: the specification's version 3, nothing compressed, one tile for all places. */
+function writeArchive(file: string, tile_type: number, tile: Buffer, about: object): void {
   const varint = (value: number): number[] =>
     value < 128 ? [value] : [(value % 128) + 128, ...varint(Math.floor(value / 128))];
   // One entry: from tile 0 on, as many times as there are tiles, its length, offset 0 (written as 1).
   const tiles = (4 ** (kClosest_zoom + 1) - 1) / 3;
   const directory = Buffer.from([1, 0, ...varint(tiles), ...varint(tile.length), 1]);
-  const metadata = Buffer.from(JSON.stringify({ attribution: "Test survey" }));
+  const metadata = Buffer.from(JSON.stringify(about));
   const header = Buffer.alloc(127);
   header.write("PMTiles", 0, "latin1");
   header[7] = 3;
@@ -73,7 +114,7 @@ export function writePmtiles(file: string, colour: Rgb): void {
     [data_at, tile.length],
   ].flat();
   [...parts, tiles, 1, 1].forEach((value, i) => header.writeBigUInt64LE(BigInt(value), 8 + 8 * i));
-  header.set([1, 1, 1, 2, 0, kClosest_zoom], 96); // clustered, not compressed, PNG, zooms
+  header.set([1, 1, 1, tile_type, 0, kClosest_zoom], 96); // clustered, not compressed, zooms
   [-180, -85, 180, 85].forEach((degrees, i) => header.writeInt32LE(degrees * 1e7, 102 + 4 * i));
   writeFileSync(file, Buffer.concat([header, directory, metadata, tile]));
 }

@@ -1,6 +1,7 @@
 import type { Signal } from "@preact/signals";
 import type L from "leaflet";
 import type { Hello } from "../link/messages";
+import type { Theme } from "../state/settings";
 import type { BaseMap } from "./layers";
 import { baseInForce, tileLayerFor } from "./tile_layers";
 
@@ -9,6 +10,7 @@ export function showBase(
   map: L.Map,
   hello: Hello | null,
   wanted: BaseMap,
+  theme: Theme,
   problem: Signal<string>,
 ): () => void {
   let gone = false;
@@ -17,7 +19,7 @@ export function showBase(
   const complain = (why: string) => {
     if (!gone) problem.value = `The base map can't be shown: ${why}`;
   };
-  tileLayerFor(hello, baseInForce(hello, wanted)).then(
+  tileLayerFor(hello, baseInForce(hello, wanted), theme).then(
     (layer) => {
       if (gone || layer === null) return;
       shown = layer;

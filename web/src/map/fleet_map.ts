@@ -211,7 +211,9 @@ export class FleetMap implements MapAccess {
         this.land.paint(this.colours);
         redraw();
       }),
-      effect(() => showBase(this.leaflet, this.store.hello.value, base_map.value, this.base_problem)),
+      effect(() =>
+        showBase(this.leaflet, this.store.hello.value, base_map.value, theme.value, this.base_problem),
+      ),
       effect(() => {
         // Whatever of these changes, all is to be drawn again.
         for (const { shown } of Object.values(layers)) void shown.value;

@@ -2,7 +2,9 @@
 import L from "leaflet";
 import { PMTiles, TileType } from "pmtiles";
 import type { Hello } from "../link/messages";
+import type { Theme } from "../state/settings";
 import type { BaseMap } from "./layers";
+import type { ArchiveOptions } from "./vector_layer";
 
 const kClosest_zoom = 19;
 /** Tiles are enlarged by this many levels at most: beyond, one covers many screens and the browser groans. */
@@ -35,13 +37,17 @@ function hostOf(url: string): string {
 }
 
 /** The layer for a choice; null for the offline map alone. Throws an Error that says for people what is wrong with a file. */
-export async function tileLayerFor(hello: Hello | null, base: BaseMap): Promise<L.GridLayer | null> {
+export async function tileLayerFor(
+  hello: Hello | null,
+  base: BaseMap,
+  theme: Theme,
+): Promise<L.GridLayer | null> {
   const tile_url = hello?.tile_url ?? null;
   if (base === "url" && tile_url !== null)
     return L.tileLayer(tile_url, { attribution: hello?.tile_attribution ?? "", maxZoom: kClosest_zoom });
   const tiles = hello?.tiles ?? null;
   if (base !== "local" || tiles === null) return null;
-  if (tiles.kind === "pmtiles") return archiveLayer(tiles.url);
+  if (tiles.kind === "pmtiles") return archiveLayer(tiles.url, theme);
   return L.tileLayer(tiles.url, {
     attribution: tiles.attribution,
     minZoom: tiles.min_zoom,
@@ -50,22 +56,29 @@ export async function tileLayerFor(hello: Hello | null, base: BaseMap): Promise<
   });
 }
 
-async function archiveLayer(url: string): Promise<L.GridLayer> {
+async function archiveLayer(url: string, theme: Theme): Promise<L.GridLayer> {
   const archive = new PMTiles(new URL(url, document.baseURI).href);
   const header = await archive.getHeader();
-  if (header.tileType === TileType.Mvt)
-    throw new Error("holds vector tiles, which this page doesn't draw: make a PMTiles file of raster tiles");
-  const metadata = (await archive.getMetadata()) as { attribution?: unknown } | null;
-  return new ArchiveLayer(archive, {
+  const metadata = (await archive.getMetadata()) as Metadata | null;
+  const options: ArchiveOptions = {
     attribution: typeof metadata?.attribution === "string" ? metadata.attribution : "",
     minZoom: header.minZoom,
     maxNativeZoom: header.maxZoom,
     maxZoom: closest(header.maxZoom),
-    bounds: [
-      [header.minLat, header.minLon],
-      [header.maxLat, header.maxLon],
-    ],
-  });
+    bounds: L.latLngBounds([header.minLat, header.minLon], [header.maxLat, header.maxLon]),
+  };
+  if (header.tileType !== TileType.Mvt) return new ArchiveLayer(archive, options);
+  const listed = metadata?.vector_layers;
+  const layers = Array.isArray(listed) ? listed.map(({ id }) => id) : [];
+  if (layers.length === 0) throw new Error("it doesn't say which layers its vector tiles have");
+  const { vectorLayer } = await import("./vector_layer");
+  return vectorLayer(archive, layers, theme, options);
+}
+
+/** What the specification of PMTiles says of its metadata, as far as it is used. */
+interface Metadata {
+  attribution?: unknown;
+  vector_layers?: { id: string }[];
 }
 
 /** Tiles drawn from the bytes in a PMTiles file: no request and no address for each. */
