@@ -164,6 +164,17 @@ test("released, control is nobody's until it is taken, and who only wants to loo
   await until(async () => expect(await who(ada)).toBe("You"));
 });
 
+test("hold is in reach of whoever is there: it takes control that nobody holds", async () => {
+  explain();
+  await menu(ada);
+  await ada.button("Release control").click();
+  await until(async () => expect(await who(ada)).toBe("Nobody"));
+  await ada.page.keyboard.press("Escape");
+  await ada.page.keyboard.press("h");
+  await until(async () => expect(await ada.text(".hold-all")).toContain("Holding"));
+  expect(await who(ada)).toBe("You");
+});
+
 test("nothing was complained of, and no request left this machine", () => {
   for (const screen of [ada, bob]) {
     expect(screen.complaints).toEqual([]);

@@ -3,7 +3,7 @@ import { computed, signal } from "@preact/signals";
 import type { Commands, Outcome } from "../link/commands";
 import { remembered, yesOrNo } from "../state/remembered";
 import { replay, whyReplay } from "../state/replay";
-import { newsOf, whyNot, youHold, type ControlMessage } from "./people";
+import { isFreeForYou, newsOf, whyNot, youHold, type ControlMessage } from "./people";
 
 /** Where a tab keeps the token by which the bridge knows it after a reload. A duplicated tab has a copy, and is given another. */
 const kTokenKey = "skein.control.token";
@@ -12,6 +12,11 @@ const control = signal<ControlMessage | null>(null);
 
 /** Why this page may not command; "" when it may. */
 export const why_no_command = computed(() => whyReplay(replay.value) || whyNot(control.value));
+
+/** The same for what takes control if nobody holds it. */
+export const why_no_urgent_command = computed(() =>
+  isFreeForYou(control.value) ? whyReplay(replay.value) : why_no_command.value,
+);
 
 export const person_name = remembered("control.name", "", (stored) =>
   typeof stored === "string" ? stored : null,
@@ -83,6 +88,17 @@ export class Control {
     const outcome = await this.commands.control({ action: "rename", name });
     if (outcome.accepted) person_name.value = name;
     return outcome;
+  }
+  /**
+   * Carries out what must be in reach of whoever is there, as Hold: control that nobody holds is taken for it. Who only wants to look
+   * may, too: pressing it says otherwise.
+   */
+  async takenIfFree(command: () => Promise<Outcome>): Promise<Outcome> {
+    if (isFreeForYou(control.value)) {
+      const outcome = await this.take();
+      if (!outcome.accepted) return outcome;
+    }
+    return command();
   }
   /** Only to look, or not any more. */
   lookOnly(only: boolean): void {

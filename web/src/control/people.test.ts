@@ -1,5 +1,13 @@
 import { expect, test } from "vitest";
-import { nameProblem, newsOf, othersOf, whyNot, type ControlMessage, type Person } from "./people";
+import {
+  isFreeForYou,
+  nameProblem,
+  newsOf,
+  othersOf,
+  whyNot,
+  type ControlMessage,
+  type Person,
+} from "./people";
 
 const person = (id: number, name: string, more: Partial<Person> = {}): Person => ({
   id,
@@ -30,6 +38,13 @@ test("who does not hold control is told who does", () => {
 test("as long as nothing is known, the bridge decides", () => {
   expect(whyNot(null)).toBe("");
   expect(whyNot(seen(0, 1, both))).toBe("");
+});
+
+test("control is free for who may operate, while nobody holds it", () => {
+  expect(isFreeForYou(seen(2, 0, both))).toBe(true);
+  expect(isFreeForYou(seen(2, 1, both))).toBe(false);
+  expect(isFreeForYou({ ...seen(2, 0, both), may_operate: false })).toBe(false);
+  expect(isFreeForYou(null)).toBe(false);
 });
 
 test("who asks comes first", () => {

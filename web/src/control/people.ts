@@ -42,6 +42,11 @@ export function othersOf(control: ControlMessage): Person[] {
     .sort((a, b) => Number(b.waits_for_s !== null) - Number(a.waits_for_s !== null) || a.id - b.id);
 }
 
+/** Nobody holds control, and this page's person may take it. */
+export function isFreeForYou(control: ControlMessage | null): boolean {
+  return control !== null && control.you !== 0 && control.may_operate && control.holder === 0;
+}
+
 /** Why this page may not command, "" when it may, or when nothing is known yet: the bridge decides. */
 export function whyNot(control: ControlMessage | null): string {
   if (control === null || control.you === 0 || youHold(control)) return "";

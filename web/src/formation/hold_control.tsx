@@ -9,11 +9,11 @@ import { command, concerned, nameOf } from "./hold";
 import "./hold.css";
 
 /**
- * Always in reach. One key holds, for holding is safe whoever pressed it by accident; to fly on takes a second key. With several
+ * Always in reach, also where nobody has taken control. One key holds, for holding is safe whoever pressed it by accident; to fly on takes a second key. With several
  * formations, both are for all of them, and a list has them one by one.
  */
 export function HoldControl({ station }: PanelProps) {
-  const { store, commands } = station;
+  const { store, commands, control } = station;
   const root = useRef<HTMLDivElement>(null);
   const press = (which: string) => {
     root.current?.querySelector<HTMLButtonElement>(`.${which}`)?.click();
@@ -47,7 +47,8 @@ export function HoldControl({ station }: PanelProps) {
         class={to_resume.length > 0 && to_hold.length === 0 ? "button hold-all holding" : "button hold-all"}
         label={`Hold ${whose} (H)`}
         disabled={to_hold.length === 0}
-        command={() => command(commands, "hold", to_hold)}
+        urgent
+        command={() => control.takenIfFree(() => command(commands, "hold", to_hold))}
       >
         <Icon name="hold" />
         {to_resume.length > 0 && to_hold.length === 0 ? "Holding" : "Hold"}
@@ -78,14 +79,15 @@ export function HoldControl({ station }: PanelProps) {
 function HoldRow({ station, formation }: PanelProps & { formation: Formation }) {
   const action = formation.hold ? "resume" : "hold";
   const word = formation.hold ? "Resume" : "Hold";
+  const send = () => {
+    const press = () => command(station.commands, action, [formation]);
+    return action === "hold" ? station.control.takenIfFree(press) : press();
+  };
   return (
     <li>
       <span>{nameOf(formation)}</span>
       <span class="hint">{formation.hold ? "holding" : ""}</span>
-      <CommandButton
-        label={`${word} ${nameOf(formation)}`}
-        command={() => command(station.commands, action, [formation])}
-      >
+      <CommandButton label={`${word} ${nameOf(formation)}`} urgent={action === "hold"} command={send}>
         {word}
       </CommandButton>
     </li>

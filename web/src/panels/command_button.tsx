@@ -1,7 +1,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
-import { why_no_command } from "../control/control";
+import { why_no_command, why_no_urgent_command } from "../control/control";
 import type { Outcome } from "../link/commands";
 import { inChosenUnits } from "../units/station_text";
 
@@ -18,6 +18,8 @@ interface CommandButtonProps {
   tabIndex?: number;
   /** It commands nothing on the bus: also for those who do not hold control. */
   always?: boolean;
+  /** Its command takes control if nobody holds it (Control.takenIfFree). */
+  urgent?: boolean;
 }
 
 const kShowRefusal_ms = 12_000;
@@ -31,7 +33,8 @@ export function CommandButton(props: CommandButtonProps) {
   const waiting = useSignal(false);
   const refusal = useSignal("");
 
-  const why_not = props.always === true ? "" : why_no_command.value;
+  const why_not =
+    props.always === true ? "" : (props.urgent === true ? why_no_urgent_command : why_no_command).value;
 
   const press = () => {
     if (waiting.value) return;
