@@ -267,6 +267,7 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
     frames.push_back(Motion());
     frames.push_back(Status());
   }
+  frames.push_back(TextFrame(R"({"type":"complete"})"));
   return frames;
 }
 

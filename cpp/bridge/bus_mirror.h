@@ -40,7 +40,7 @@ class BusMirror {
   BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink);
 
   /// For a browser that has just come: hello and the last of each, in an order in which nothing refers to
-  /// what comes later.
+  /// what comes later; "complete" ends it, so that it can be shown at once.
   std::vector<LiveFrame> Snapshot() const;
 
   /// Where everybody is, and what is known of everybody, at this moment.

@@ -4,6 +4,11 @@ import type { ControlMessage } from "../control/people";
 import type { Replay } from "../state/replay";
 import type { PlaybackMessage, RecordingsServed, Reset } from "./recording_messages";
 
+export interface Complete {
+  type: "complete";
+}
+
+/** A bridge's first word. Everything it knows follows, up to "complete". */
 export interface Hello {
   type: "hello";
   version: string;
@@ -243,6 +248,7 @@ export type ServerMessage =
   | BusHealth
   | PlaybackMessage
   | Reset
+  | Complete
   | ControlMessage;
 
 export interface LinkBody {

@@ -3,8 +3,10 @@ import { why_no_command } from "../control/control";
 import { recordingIn, replay } from "./replay";
 import { Store } from "./store";
 
-const hello = (shown: object | null) =>
-  JSON.stringify({ type: "hello", version: "0.1.0", lcm_url: "", utime: 1, replay: shown });
+function greet(store: Store, shown: object | null): void {
+  store.takeText(JSON.stringify({ type: "hello", version: "0.1.0", lcm_url: "", utime: 1, replay: shown }));
+  store.takeText(JSON.stringify({ type: "complete" }));
+}
 
 afterEach(() => {
   replay.value = null;
@@ -12,11 +14,11 @@ afterEach(() => {
 
 test("in a replay nothing can be commanded, and again when the flight is live", () => {
   const store = new Store(() => undefined);
-  store.takeText(hello(null));
+  greet(store, null);
   expect(why_no_command.value).toBe("");
-  store.takeText(hello({ kind: "player", name: "triangle.lcm" }));
+  greet(store, { kind: "player", name: "triangle.lcm" });
   expect(why_no_command.value).toBe("This is a replay: nothing can be commanded");
-  store.takeText(hello(null));
+  greet(store, null);
   expect(why_no_command.value).toBe("");
 });
 

@@ -12,6 +12,8 @@ const kHello = {
   tile_url: null,
   tile_attribution: "",
 };
+/** What ends the picture that a hello begins. */
+const kComplete = { type: "complete" };
 const kRoster = {
   type: "roster",
   utime: 5,
@@ -34,7 +36,7 @@ const event = (event_sequence: number, utime: number) => ({
 
 function filled(...messages: object[]): Store {
   const store = new Store(() => undefined);
-  for (const message of messages) store.takeText(JSON.stringify(message));
+  for (const message of [...messages, kComplete]) store.takeText(JSON.stringify(message));
   return store;
 }
 
@@ -63,6 +65,7 @@ test("however often statuses come, they are shown on the beat", () => {
   expect(store.statuses.value.size).toBe(0);
   store.takeText(JSON.stringify(status(1)));
   store.takeText(JSON.stringify(kHello));
+  store.takeText(JSON.stringify(kComplete));
   store.beat(750);
   expect(store.statuses.value.size).toBe(0);
 });
@@ -79,10 +82,23 @@ test("a new hello forgets what the old bridge said, but not what happened nor th
   const store = filled(kHello, kRoster, event(1, 10), { type: "bus", nodes_silent: ["collision-monitor"] });
   store.takeFrame(motionFrame([1]), 0);
   store.takeText(JSON.stringify(kHello));
+  store.takeText(JSON.stringify(kComplete));
   expect(store.silent_nodes.value).toEqual([]);
   expect(store.events.value).toHaveLength(1);
   expect(store.roster.value?.scenario).toBe("Test");
   expect(store.fleet.motion).not.toBeNull();
+});
+
+test("after a new connection nothing is gone for a moment that the bridge still knows", () => {
+  const formation = { type: "formation", formation_id: 4, slots: [] };
+  const store = filled(kHello, kRoster, formation);
+  const seen: number[] = [];
+  const stop = store.formations.subscribe((formations) => {
+    seen.push(formations.size);
+  });
+  for (const message of [kHello, kRoster, formation, kComplete]) store.takeText(JSON.stringify(message));
+  stop();
+  expect(seen.filter((size) => size !== 1)).toEqual([]);
 });
 
 test("a scenario that starts anew clears the old telemetry", () => {
@@ -119,6 +135,7 @@ test("alarms are those of the last list, and a new bridge has to be heard first"
   store.takeText(JSON.stringify(listOf([alarm(2, 1)])));
   expect(store.alarms.value?.alarms.map(({ id }) => id)).toEqual([2]);
   store.takeText(JSON.stringify(kHello));
+  store.takeText(JSON.stringify(kComplete));
   expect(store.alarms.value).toBeNull();
 });
 
@@ -149,7 +166,8 @@ test("a jump in a recording is shown at once, when the whole picture of the mome
   const store = filled(log, kRoster, event(1, 10), event(2, 20), playback("paused", { t_s: 50 }));
   store.takeFrame(motionFrame([1]), 0);
   const hello = store.hello.value;
-  for (const message of [{ type: "reset" }, { ...log, utime: 2 }, kRoster, event(1, 10)]) {
+  const status = { type: "status", formation_id: 4, mode: 1, slots: [] };
+  for (const message of [{ type: "reset" }, { ...log, utime: 2 }, kRoster, status, event(1, 10), kComplete]) {
     store.takeText(JSON.stringify(message));
     expect(store.events.value).toHaveLength(2);
     expect(store.fleet.motionRow(1)).toBe(0);
@@ -160,6 +178,7 @@ test("a jump in a recording is shown at once, when the whole picture of the mome
   expect(store.events.value.map((e) => e.event_sequence)).toEqual([1]);
   expect([store.fleet.motionRow(1), store.fleet.motionRow(2)]).toEqual([-1, 0]);
   expect(store.playback.value?.t_s).toBe(5);
+  expect(store.statuses.value.get(4)?.mode).toBe(1); // with the rest, not with the next beat
   expect(store.hello.value).toBe(hello); // or tiles and curves would be fetched anew with each jump
 });
 

@@ -59,8 +59,10 @@ export class Store {
   /** The time (performance.now), a few times a second: what goes with time or shows `fleet` reads it, and is drawn again. */
   readonly now_ms = signal(performance.now());
 
-  /** What has come of the picture that follows a reset, to be shown at once; null: none is on its way. */
+  /** What has come of the picture that follows a hello or a reset, to be shown at once; null: none is on its way. */
   private picture: (() => void)[] | null = null;
+  /** It follows a reset: what was shown before counts no more. */
+  private jumped = false;
 
   private readonly callsigns = computed(
     () => new Map(this.roster.value?.vehicles.map((vehicle) => [vehicle.id, vehicle.callsign])),
@@ -75,14 +77,24 @@ export class Store {
     const message = JSON.parse(text) as ServerMessage;
     if (message.type === "reset") {
       this.picture = [];
-    } else if (this.picture === null) {
-      this.take(message);
-    } else {
-      this.picture.push(() => {
-        this.take(message);
-      });
-      if (message.type === "playback" || message.type === "ack") this.showPicture();
+      this.jumped = true;
+      return;
     }
+    if (message.type === "hello" && !this.jumped) this.picture = [];
+    if (this.picture === null) {
+      this.take(message);
+      return;
+    }
+    this.picture.push(() => {
+      this.take(message);
+    });
+    // After a jump it is shown when the time that it belongs to is known, too.
+    if (
+      message.type === "playback" ||
+      message.type === "ack" ||
+      (message.type === "complete" && !this.jumped)
+    )
+      this.showPicture();
   }
 
   private take(message: ServerMessage): void {
@@ -131,6 +143,7 @@ export class Store {
         this.takePlayback(message);
         break;
       case "reset":
+      case "complete":
         break;
       case "ack":
         this.onAck(message);
@@ -141,12 +154,15 @@ export class Store {
   /** A few times a second: what goes with time, or came too often to be shown at once, is drawn again. */
   beat(now_ms: number): void {
     batch(() => {
-      if (this.newest_statuses.size > 0) {
-        this.statuses.value = new Map([...this.statuses.value, ...this.newest_statuses]);
-        this.newest_statuses.clear();
-      }
+      this.publishStatuses();
       this.now_ms.value = now_ms;
     });
+  }
+
+  private publishStatuses(): void {
+    if (this.newest_statuses.size === 0) return;
+    this.statuses.value = new Map([...this.statuses.value, ...this.newest_statuses]);
+    this.newest_statuses.clear();
   }
 
   /** Selects these UAVs and no others. */
@@ -196,12 +212,16 @@ export class Store {
   }
 
   private showPicture(): void {
-    const picture = this.picture ?? [];
+    const [picture, jumped] = [this.picture ?? [], this.jumped];
     this.picture = null;
+    this.jumped = false;
     batch(() => {
-      this.events.value = [];
-      this.fleet.clear();
+      if (jumped) {
+        this.events.value = [];
+        this.fleet.clear();
+      }
       for (const take of picture) take();
+      this.publishStatuses();
     });
   }
 
