@@ -16,7 +16,7 @@
 #include "experiment/campaign_command.h"
 #include "experiment/csv_writer.h"
 #include "experiment/experiment.h"
-#include "experiment/flight_recorder.h"
+#include "experiment/flight_sampler.h"
 #include "experiment/output.h"
 #include "plot/plot.h"
 
@@ -87,7 +87,7 @@ fs::path FileOf(const Run& run, const fs::path& file) {
 plot::FlightRecord Fly(const Run& run, const Arguments& arguments) {
   std::optional<CsvWriter> csv;
   if (!arguments.csv.empty()) csv.emplace(FileOf(run, arguments.csv));
-  FlightRecorder recorder(run.scenario, run.label);
+  FlightSampler sampler(run.scenario, run.label);
   const double duration_s = arguments.duration_s.value_or(run.scenario.duration_s);
   Progress progress(duration_s, "s");
 
@@ -97,7 +97,7 @@ plot::FlightRecord Fly(const Run& run, const Arguments& arguments) {
   options.log = FileOf(run, arguments.log);
   options.on_tick = [&](const Tick& tick) {
     if (csv) csv->Add(tick);
-    if (!arguments.plot.empty()) recorder.Add(tick);
+    if (!arguments.plot.empty()) sampler.Add(tick);
     progress.Show(tick.t_s);
   };
   options.stop = [] { return interrupted != 0; };
@@ -108,7 +108,7 @@ plot::FlightRecord Fly(const Run& run, const Arguments& arguments) {
   fmt::print("{}  Real time: {:.2f} s, {:.0f} times as fast as the flight\n", ToText(summary), took.count(),
              summary.duration_s / took.count());
   std::fflush(stdout);
-  return recorder.record();
+  return sampler.record();
 }
 
 void Describe(CLI::App& app, Arguments& arguments) {

@@ -13,7 +13,7 @@ import { toCsv } from "./csv";
 import { drawnIds } from "./curves";
 import { download, fileName } from "./download";
 import { marksOf } from "./event_marks";
-import { FlightRecorder } from "./flight_recorder";
+import { FlightCurves } from "./flight_curves";
 import { drawPicture } from "./png";
 import { playedOf } from "./played";
 import { kAll, pan, spanOf, zoom, type Span, type TimeWindow } from "./time_window";
@@ -33,13 +33,13 @@ export function ChartsPanel({ station }: PanelProps) {
   const now_ms = store.now_ms.value;
   const roster = store.roster.value;
   const selection = store.selection.value;
-  const recorder = useRef<FlightRecorder | null>(null);
-  recorder.current ??= new FlightRecorder(store, station.api, station.player);
+  const curves = useRef<FlightCurves | null>(null);
+  curves.current ??= new FlightCurves(store, station.api, station.player);
   const plots = useRef(new Map<string, uPlot>()).current;
   const chosen = useRef({ roster, selection, ids: [] as readonly number[], at_ms: -Infinity });
   useEffect(
     () => () => {
-      recorder.current?.close();
+      curves.current?.close();
       cursor_s.value = null;
     },
     [],
@@ -53,9 +53,9 @@ export function ChartsPanel({ station }: PanelProps) {
     const ids = drawnIds(store.fleet, roster?.vehicles ?? [], selection);
     chosen.current = { roster, selection, ids, at_ms: now_ms };
   }
-  recorder.current.update(chosen.current.ids, now_ms);
-  const { series } = recorder.current;
-  const loading = recorder.current.loading.value;
+  curves.current.update(chosen.current.ids, now_ms);
+  const { series } = curves.current;
+  const loading = curves.current.loading.value;
 
   const start_utime = roster?.start_utime ?? 0;
   useEffect(() => {

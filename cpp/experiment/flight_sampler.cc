@@ -1,4 +1,4 @@
-#include "experiment/flight_recorder.h"
+#include "experiment/flight_sampler.h"
 
 #include <utility>
 
@@ -9,7 +9,7 @@ constexpr std::int64_t kTicksPerSample = 4;
 
 }  // namespace
 
-FlightRecorder::FlightRecorder(const config::Scenario& scenario, std::string label) {
+FlightSampler::FlightSampler(const config::Scenario& scenario, std::string label) {
   record_.label = std::move(label);
   for (const auto& vehicle : scenario.vehicles) {
     record_.vehicles.emplace_back();
@@ -19,7 +19,7 @@ FlightRecorder::FlightRecorder(const config::Scenario& scenario, std::string lab
   cut_.resize(record_.vehicles.size());
 }
 
-void FlightRecorder::Add(const Tick& tick) {
+void FlightSampler::Add(const Tick& tick) {
   for (std::size_t i = 0; i < tick.vehicles.size(); ++i) {
     const VehicleTick& vehicle = tick.vehicles[i];
     const bool cut = vehicle.uplink_cut || vehicle.downlink_cut;

@@ -19,7 +19,7 @@ const kGrown_s = 30;
 
 export type Loading = { kind: "idle" } | { kind: "loading" } | { kind: "failed"; reason: string };
 
-export class FlightRecorder {
+export class FlightCurves {
   series = new FlightSeries([]);
   readonly loading = signal<Loading>({ kind: "idle" });
   /** Which flight `series` is of. */

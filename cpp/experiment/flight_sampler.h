@@ -10,9 +10,9 @@
 namespace skein::experiment {
 
 /// Keeps of a flight what is plotted, five times a second.
-class FlightRecorder {
+class FlightSampler {
  public:
-  FlightRecorder(const config::Scenario& scenario, std::string label);
+  FlightSampler(const config::Scenario& scenario, std::string label);
   void Add(const Tick& tick);
   const plot::FlightRecord& record() const { return record_; }
 
