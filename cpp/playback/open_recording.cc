@@ -35,6 +35,14 @@ std::optional<LogIndex> Index(const LogFile& log, const std::function<bool(doubl
   return index;
 }
 
+/// What went wrong with a file, by its name alone: where this machine keeps it is nobody's business at a page.
+std::string Reason(const std::exception& error, const fs::path& file) {
+  std::string text = error.what();
+  const std::string path = file.string();
+  if (text.starts_with(path)) text.replace(0, path.size(), file.filename().string());
+  return text;
+}
+
 /// In its largest roster; where nobody has sent one, of whom there is telemetry.
 int VehiclesOf(const RecordedFlight& flight) {
   int named = 0;
@@ -67,7 +75,7 @@ std::shared_ptr<const RecordedFlight> OpenRecording(const std::vector<fs::path>&
       bytes_before += bytes;
       opened.push_back({std::move(log), std::make_shared<const LogIndex>(std::move(*index))});
     } catch (const std::runtime_error& error) {
-      problems.emplace_back(error.what());
+      problems.push_back(Reason(error, file));
     }
   }
   if (opened.empty()) throw std::runtime_error(problems.empty() ? "it has no files" : problems.front());

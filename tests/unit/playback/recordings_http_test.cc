@@ -276,7 +276,7 @@ TEST_F(RecordingsHttp, SaysWhyARecordingCannotBeOpened) {
   json playback = client.ReadText("playback");
   while (playback["state"] == "opening") playback = client.ReadText("playback");
   EXPECT_EQ(playback["state"], "failed");
-  EXPECT_NE(playback["problem"].get<std::string>().find("is not an LCM log"), std::string::npos);
+  EXPECT_EQ(playback["problem"], "noise.lcm: is not an LCM log: there is no event in it");
   EXPECT_EQ(GetIndexed("/api/recordings/noise.lcm").status, 422);
   EXPECT_EQ(Get("/api/recordings/nothing.lcm").status, 404);
 }
