@@ -22,6 +22,7 @@ const kGroup = "Recording";
 export function Transport({ station, disabled }: TransportProps) {
   const { player, store } = station;
   const go_to = useRef<HTMLInputElement>(null);
+  const by_pointer = useRef(false);
   const playback = store.playback.value;
   const playing = playback?.state === "playing";
   const direction = playback?.direction ?? 1;
@@ -125,7 +126,17 @@ export function Transport({ station, disabled }: TransportProps) {
           title="How fast it is played (< and >)"
           disabled={disabled}
           value={String(playback?.speed ?? 1)}
-          onChange={(event) => void player.setSpeed(Number(event.currentTarget.value))}
+          onPointerDown={() => {
+            by_pointer.current = true;
+          }}
+          onKeyDown={() => {
+            by_pointer.current = false;
+          }}
+          onChange={(event) => {
+            // As with the buttons: Space goes on playing and pausing. Arrow keys go on choosing.
+            if (by_pointer.current) event.currentTarget.blur();
+            void player.setSpeed(Number(event.currentTarget.value));
+          }}
         >
           {speeds(playback?.speed ?? 1).map((speed) => (
             <option key={speed} value={String(speed)}>
