@@ -1,7 +1,7 @@
 /** Two people at two browsers: a link is lost, the alarm flashes and sounds, one of them looks after it, and both see that. One flight, in order. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { afterAll, beforeAll, expect, test, vi } from "vitest";
 import { Screen } from "./screen";
-import { kPageUrl, Station } from "./station";
+import { explain, kPageUrl, Station } from "./station";
 
 const station = new Station({ scenario: "alarms.json" });
 let screen: Screen;
@@ -11,12 +11,6 @@ const until = (what: () => Promise<void> | void, timeout: number) =>
   vi.waitFor(what, { timeout, interval: 100 });
 const link3 = (of: Screen) => of.page.locator('.alarms .alarm[data-condition="link:3"]').first();
 const both = () => [screen, other];
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
 
 /** What a program on this machine asks the simulator for. */
 async function setLink(mode: "up" | "silent"): Promise<void> {
@@ -74,7 +68,7 @@ afterAll(async () => {
 });
 
 test("while all is well no alarm is on, and the page says what the sound waits for", async () => {
-  explain();
+  explain(station);
   await until(async () => expect(await screen.text(".pill")).toBe("Live"), 20_000);
   await until(async () => expect(await screen.text(".alarms")).toContain("no alarm is on"), 10_000);
   expect(await screen.page.locator(".badges").getAttribute("title")).toBe("Alarms: no warnings; no cautions");
@@ -88,7 +82,7 @@ test("while all is well no alarm is on, and the page says what the sound waits f
 });
 
 test("a lost link flashes in both browsers and sounds, and the mode line tells the climb and why", async () => {
-  explain();
+  explain(station);
   await setLink("silent");
   await until(async () => expect(await link3(screen).innerText()).toContain("Link of UAV3 lost"), 10_000);
   await until_state(0, true, 3000);
@@ -134,7 +128,7 @@ test("the sound is muted by key for a minute that counts down, and comes back", 
 });
 
 test("who acknowledges it in one browser makes it steady in both, by the bus", async () => {
-  explain();
+  explain(station);
   await link3(screen).focus();
   await screen.page.keyboard.press("Enter");
   await until_state(1, false, 3000);
@@ -147,11 +141,13 @@ test("who acknowledges it in one browser makes it steady in both, by the bus", a
   await other.page.getByRole("tab", { name: "Events" }).click();
   await other.page.locator('.events li[title*=": alarm_acknowledged,"]').waitFor({ timeout: 3000 });
   await other.page.getByRole("tab", { name: "Alarms" }).click();
+  // Unacknowledged it would have sounded again after 4 s.
+  await screen.flies(6);
   expect(await notes()).toBe(quiet);
 });
 
 test("an alarm is shelved for a time that counts down, and flashes when it is taken off the shelf", async () => {
-  explain();
+  explain(station);
   await link3(screen).getByRole("button", { name: "Shelve", exact: true }).click();
   await link3(screen).getByRole("button", { name: "Shelve for 1 min" }).click();
   await until_state(3, false, 3000);
@@ -176,7 +172,7 @@ test("a key that is held down does its work once", async () => {
 });
 
 test("one that has ended unseen stays until it is acknowledged, and is then history in both", async () => {
-  explain();
+  explain(station);
   await setLink("up");
   await until_state(2, true, 10_000);
   expect(await link3(screen).innerText()).toContain("has ended");
@@ -189,7 +185,7 @@ test("one that has ended unseen stays until it is acknowledged, and is then hist
 });
 
 test("events are found by word, by severity and by UAV, which a click selects", async () => {
-  explain();
+  explain(station);
   await screen.page.getByRole("tab", { name: "Events" }).click();
   const codes = () =>
     screen.page
@@ -209,7 +205,7 @@ test("events are found by word, by severity and by UAV, which a click selects", 
 });
 
 test("without the monitor the page says that no alarms can come", async () => {
-  explain();
+  explain(station);
   await station.stop("collision-monitor");
   await until(async () => expect(await screen.text(".badges")).toBe("No alarms can come"), 8000);
   expect(await screen.text(".banner")).toContain("No alarms can come");

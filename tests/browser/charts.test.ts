@@ -149,6 +149,7 @@ test("dragging, the wheel, keys and buttons zoom all charts", async () => {
     expect(closer[0]).toBeGreaterThanOrEqual(1);
   });
   // Zoomed in, it stands still.
+  await screen.flies(2);
   expect(await timeShown()).toEqual(closer);
   await screen.page.mouse.wheel(0, 400);
   await screen.page.mouse.wheel(0, 400);

@@ -1,7 +1,7 @@
 /** A person at the page: sees the fleet, cuts a link, sees what the station does about it, restores it. One flight, in order. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { afterAll, beforeAll, expect, test, vi } from "vitest";
 import { Screen } from "./screen";
-import { Station } from "./station";
+import { explain, Station } from "./station";
 
 const station = new Station({ scenario: "flight.json" });
 let screen: Screen;
@@ -11,12 +11,6 @@ const until = (what: () => Promise<void> | void, timeout: number) =>
 const altitude_m = async (id: number) => (await screen.uav(id)).altitude_m;
 
 /** Tests build on one another: what the nodes said tells why one failed. */
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
-
 beforeAll(async () => {
   station.start("web-bridge");
   await station.answers();
@@ -29,7 +23,7 @@ afterAll(async () => {
 });
 
 test("with no fleet on the bus, the page says what it waits for and how to start it", async () => {
-  explain();
+  explain(station);
   const card = screen.page.locator(".first-run");
   await card.waitFor();
   expect(await card.innerText()).toContain("Waiting for a fleet");
@@ -39,7 +33,7 @@ test("with no fleet on the bus, the page says what it waits for and how to start
 });
 
 test("three UAVs come, fill the table and move on the map", async () => {
-  explain();
+  explain(station);
   station.start("fleet-simulator", "formation-controller", "collision-monitor");
   await until(async () => expect(await screen.page.locator("tbody tr").count()).toBe(3), 15_000);
   await until(async () => expect(await screen.text(".pill")).toBe("Live"), 15_000);
@@ -65,7 +59,7 @@ test("three UAVs come, fill the table and move on the map", async () => {
 });
 
 test("the table tells link, slot, neighbour and motion of each, and the card the mode", async () => {
-  explain();
+  explain(station);
   await until(async () => {
     for (const id of [1, 2, 3]) {
       const uav = await screen.uav(id);
@@ -84,7 +78,7 @@ test("the table tells link, slot, neighbour and motion of each, and the card the
 });
 
 test("a payload is switched from the page, and shown on when telemetry says so", async () => {
-  explain();
+  explain(station);
   await screen.payload("UAV2").click();
   await until(async () => expect((await screen.uav(2)).payload_on).toBe(true), 10_000);
   expect((await screen.uav(1)).payload_on).toBe(false);
@@ -93,7 +87,7 @@ test("a payload is switched from the page, and shown on when telemetry says so",
 });
 
 test("after a cut from the page the chain breaks and the others climb 200 m", async () => {
-  explain();
+  explain(station);
   await screen.page.keyboard.press("f");
   await screen.page.getByRole("tab", { name: "Events" }).click();
   await screen.button("Cut the link of UAV3").click();
@@ -117,7 +111,7 @@ test("after a cut from the page the chain breaks and the others climb 200 m", as
 });
 
 test("after the link is restored all are in formation again, where they were", async () => {
-  explain();
+  explain(station);
   await screen.button("Restore the link of UAV3").click();
   await until(async () => {
     expect(await screen.uav(3)).toMatchObject({ downlink: "up", uplink: "up" });
@@ -129,7 +123,7 @@ test("after the link is restored all are in formation again, where they were", a
 });
 
 test("the page fits its window in every size and theme, without scrolling", async () => {
-  explain();
+  explain(station);
   for (const theme of ["dark", "light"] as const) {
     for (const [width, height] of [
       [1280, 720],
@@ -154,7 +148,7 @@ test("the page fits its window in every size and theme, without scrolling", asyn
 });
 
 test("axe finds no barrier in either theme", async () => {
-  explain();
+  explain(station);
   for (const theme of ["dark", "light"] as const) {
     await screen.show(1280, 720, theme);
     expect(await screen.barriers()).toEqual([]);
@@ -162,7 +156,7 @@ test("axe finds no barrier in either theme", async () => {
 });
 
 test("every control is reached by keyboard, and the focus is seen", async () => {
-  explain();
+  explain(station);
   await screen.page.evaluate(() => {
     (document.activeElement as HTMLElement | null)?.blur();
   });
@@ -203,7 +197,7 @@ test("nothing was complained of, and no request left this machine", () => {
 });
 
 test("when the bridge goes the page says so, greys out, and comes back by itself", async () => {
-  explain();
+  explain(station);
   await station.stop("web-bridge");
   await until(async () => {
     expect(await screen.text(".pill")).toBe("Reconnecting…");
@@ -219,7 +213,7 @@ test("when the bridge goes the page says so, greys out, and comes back by itself
 });
 
 test("a command that nobody obeys is refused beside its button", async () => {
-  explain();
+  explain(station);
   // The bridge has been started anew: until it has heard the simulator the page takes the links' buttons away.
   await station.hears("fleet-simulator");
   await screen.button("Cut the link of UAV1").waitFor();

@@ -1,7 +1,7 @@
 /** A person at the formation editor: changes a formation, sees what it would do, applies it, lets it hold and fly on. One flight. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { afterAll, beforeAll, expect, test, vi } from "vitest";
 import { Screen } from "./screen";
-import { Station } from "./station";
+import { explain, Station } from "./station";
 
 const station = new Station({ scenario: "formation.json" });
 let screen: Screen;
@@ -14,12 +14,6 @@ const flown = () => screen.text(".flown");
 const draftState = () => screen.text(".draft-state");
 
 /** Tests build on one another: what the nodes said tells why one failed. */
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
-
 async function choose(shape: string): Promise<void> {
   // The radio buttons lie unseen over their pictures.
   await screen.page.getByRole("radio", { name: shape, exact: true }).check({ force: true });
@@ -71,7 +65,7 @@ afterAll(async () => {
 });
 
 test("the editor opens by key and shows the formation as it is flown", async () => {
-  explain();
+  explain(station);
   await until(async () => expect(await screen.text(".mode-name")).toBe("In formation"), 20_000);
   await screen.page.keyboard.press("e");
   await until(
@@ -83,7 +77,7 @@ test("the editor opens by key and shows the formation as it is flown", async () 
 });
 
 test("another shape and spacing are flown ahead before they can be applied", async () => {
-  explain();
+  explain(station);
   await choose("Vee");
   await type("Spacing [m]", "400");
   expect(await draftState()).toContain("Differs from what is flown: shape, spacing, 2 places");
@@ -98,7 +92,7 @@ test("another shape and spacing are flown ahead before they can be applied", asy
 });
 
 test("a slot dragged into another's cylinder is named, and Apply is blocked until that is overridden", async () => {
-  explain();
+  explain(station);
   const [from, to] = [await slotAt(2), await slotAt(3)];
   await screen.page.mouse.move(from.x, from.y);
   await screen.page.mouse.down();
@@ -128,7 +122,7 @@ test("a slot dragged into another's cylinder is named, and Apply is blocked unti
 });
 
 test("undo takes back the keys and the drag, each as one step", async () => {
-  explain();
+  explain(station);
   await screen.page.keyboard.press("Control+z");
   await screen.page.keyboard.press("Control+z");
   await until(async () => expect(await draftState()).toContain("shape, spacing, 2 places"), 2000);
@@ -137,7 +131,7 @@ test("undo takes back the keys and the drag, each as one step", async () => {
 });
 
 test("who flies where is exchanged by hand, and proposed again", async () => {
-  explain();
+  explain(station);
   const places = () => screen.page.locator(".slot-table tbody tr th").allInnerTexts();
   const before = (await places()).map((text) => text.slice(0, 1));
   await screen.page.getByLabel("Who flies in the slot of UAV2").selectOption("1");
@@ -149,7 +143,7 @@ test("who flies where is exchanged by hand, and proposed again", async () => {
 });
 
 test("Apply is answered, and the fleet flies what was applied", async () => {
-  explain();
+  explain(station);
   await previewed();
   await until(async () => expect(await apply().isEnabled()).toBe(true), 5000);
   await apply().click();
@@ -163,7 +157,7 @@ test("Apply is answered, and the fleet flies what was applied", async () => {
 });
 
 test("what another operator changes meanwhile is pointed out, and the draft is kept", async () => {
-  explain();
+  explain(station);
   await type("Spacing [m]", "450");
   const { formations } = (await (await fetch(new URL("api/state", screen.page.url()))).json()) as {
     formations: { radius_m: number }[];
@@ -180,7 +174,7 @@ test("what another operator changes meanwhile is pointed out, and the draft is k
 });
 
 test("a new formation is made of what is selected", async () => {
-  explain();
+  explain(station);
   await screen.show(1280, 720, "dark");
   const box = await screen.page.locator(".map").boundingBox();
   await until(async () => {
@@ -197,7 +191,7 @@ test("a new formation is made of what is selected", async () => {
 });
 
 test("one key lets all hold, and two let them fly on", async () => {
-  explain();
+  explain(station);
   await screen.page.evaluate(() => {
     (document.activeElement as HTMLElement | null)?.blur();
   });
@@ -212,7 +206,7 @@ test("one key lets all hold, and two let them fly on", async () => {
 });
 
 test("axe finds no barrier in the editor, with all of it open, in either theme", async () => {
-  explain();
+  explain(station);
   await choose("Column");
   for (const part of await screen.page.locator(".part summary").all()) await part.click();
   for (const theme of ["dark", "light"] as const) {

@@ -171,6 +171,7 @@ test("a climb that is too steep is shown at its waypoint, and blocks sending unt
   expect(await screen.page.locator(".problem-row").first().innerText()).toMatch(/climb/);
   await look("impossible", 1280, 720, "light");
   await tool("Review…").click();
+  await screen.page.getByText("It can't be flown like this.").waitFor();
   expect(await screen.button("Send to Alpha").isDisabled()).toBe(true);
   await look("review-impossible", 1280, 720, "dark");
   await screen.button("Back to planning").click();

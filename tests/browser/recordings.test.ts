@@ -1,9 +1,9 @@
 /** The list of recordings: what it tells, opening, taking away, what is damaged or no log at all, and deleting. */
 import { appendFileSync, existsSync, readFileSync, statSync, writeFileSync } from "node:fs";
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { afterAll, beforeAll, expect, test } from "vitest";
 import { kName, RecordedFlight } from "./recorded_flight";
-import { Screen } from "./screen";
-import { kPageUrl } from "./station";
+import { Screen, until } from "./screen";
+import { explain, kPageUrl } from "./station";
 
 const kTorn = "Torn-20261125-150000.lcm";
 const kNotes = "notes.lcm";
@@ -11,16 +11,8 @@ const kNotes = "notes.lcm";
 const flight = new RecordedFlight();
 let screen: Screen;
 
-const until = (what: () => Promise<void> | void, timeout = 15_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
 const page = () => screen.page;
 const entry = (name: string) => page().locator(".recording", { hasText: name });
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${flight.station.log()}\n`);
-  });
-}
 
 beforeAll(async () => {
   await flight.start();
@@ -32,7 +24,7 @@ afterAll(async () => {
 });
 
 test("a flight is recorded, and the folder holds a torn one and one that is no log", async () => {
-  explain();
+  explain(flight.station);
   screen = await Screen.open();
   await flight.loseAndClimb(screen);
   const whole = readFileSync(`${flight.folder}/${kName}`);
@@ -44,7 +36,7 @@ test("a flight is recorded, and the folder holds a torn one and one that is no l
 });
 
 test("the list tells of each what is in it, and what cannot be opened", async () => {
-  explain();
+  explain(flight.station);
   await page().keyboard.press("r");
   await until(async () => {
     const told = await entry(kName).innerText();
@@ -59,7 +51,7 @@ test("the list tells of each what is in it, and what cannot be opened", async ()
 });
 
 test("its file can be taken away, byte for byte", async () => {
-  explain();
+  explain(flight.station);
   const [download] = await Promise.all([
     page().waitForEvent("download"),
     page()
@@ -70,7 +62,7 @@ test("its file can be taken away, byte for byte", async () => {
 });
 
 test("a damaged recording opens, plays what is there, and says what is missing", async () => {
-  explain();
+  explain(flight.station);
   await page().goto(`${kPageUrl}?recording=${kTorn}`);
   await page().locator(".playhead").waitFor();
   await until(async () => expect(await screen.text(".timeline-damage summary")).toContain("can't be read"));
@@ -83,7 +75,7 @@ test("a damaged recording opens, plays what is there, and says what is missing",
 });
 
 test("what cannot be opened says why, and leads back", async () => {
-  explain();
+  explain(flight.station);
   await page().goto(`${kPageUrl}?recording=${kNotes}`);
   await until(async () => expect(await screen.text(".opening")).toMatch(/can't be opened/));
   await page().goto(`${kPageUrl}?recording=nothing.lcm`);
@@ -97,7 +89,7 @@ test("what cannot be opened says why, and leads back", async () => {
 });
 
 test("who holds control deletes it, after being asked with its name", async () => {
-  explain();
+  explain(flight.station);
   await until(async () => expect(await screen.text(".control-who")).toBe("You"), 20_000);
   if ((await page().locator(".recordings").count()) === 0) await page().keyboard.press("r");
   await screen.button(`Delete ${kTorn}…`).click();

@@ -4,8 +4,8 @@ import { once } from "node:events";
 import { mkdtempSync, rmSync, statSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
+import { afterAll, beforeAll, expect, onTestFailed, test } from "vitest";
+import { Screen, until } from "./screen";
 import { kBin, kLcmUrl, kPageUrl, kPort, Station } from "./station";
 
 const kReplay = fileURLToPath(new URL("../../scripts/replay", import.meta.url));
@@ -20,9 +20,6 @@ let spy: ChildProcess;
 let screen: Screen;
 let said = "";
 let heard = "";
-
-const until = (what: () => Promise<void> | void, timeout = 30_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
 
 async function end(child: ChildProcess | undefined, signal: NodeJS.Signals): Promise<void> {
   if (child === undefined || child.exitCode !== null) return;

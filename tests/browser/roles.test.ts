@@ -1,23 +1,15 @@
 /** Two people at the page: one commands, the other looks on, asks, is given control, goes and comes back. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
-import { Station } from "./station";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Screen, until } from "./screen";
+import { explain, Station } from "./station";
 
 const station = new Station({ scenario: "roles.json" });
 let ada: Screen;
 let bob: Screen;
 
-const until = (what: () => Promise<void> | void, timeout = 10_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
 const who = (screen: Screen) => screen.text(".control-who");
 const menu = (screen: Screen) => screen.page.locator(".control-pill").click();
 const payload = (screen: Screen) => screen.payload("UAV1");
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
 
 /** Types a name into the open menu. */
 async function callThemselves(screen: Screen, name: string): Promise<void> {
@@ -45,7 +37,7 @@ afterAll(async () => {
 });
 
 test("the first has control, the second sees who has it, by name", async () => {
-  explain();
+  explain(station);
   await until(async () => expect(await who(bob)).toBe("Operator 1"));
   await menu(ada);
   await callThemselves(ada, "Ada");
@@ -54,7 +46,7 @@ test("the first has control, the second sees who has it, by name", async () => {
 });
 
 test("who looks on sees that nothing can be commanded, and why", async () => {
-  explain();
+  explain(station);
   expect(await payload(bob).getAttribute("aria-disabled")).toBe("true");
   expect(await payload(bob).getAttribute("title")).toBe("Payload of UAV1: Ada holds control");
   await payload(bob).click({ force: true });
@@ -70,7 +62,7 @@ test("who looks on sees that nothing can be commanded, and why", async () => {
 });
 
 test("a request is put before the holder, who may refuse it", async () => {
-  explain();
+  explain(station);
   await menu(bob);
   await callThemselves(bob, "Bob");
   await bob.button("Ask for control").click();
@@ -83,7 +75,7 @@ test("a request is put before the holder, who may refuse it", async () => {
 });
 
 test("handed over, control is with the other, and both are told", async () => {
-  explain();
+  explain(station);
   await bob.page.keyboard.press("Escape");
   await bob.page.keyboard.press("Shift+C");
   await ada.button("Give control to Bob").click();
@@ -97,7 +89,7 @@ test("handed over, control is with the other, and both are told", async () => {
 });
 
 test("a duplicated tab is somebody else", async () => {
-  explain();
+  explain(station);
   // A window that a page opens has a copy of its session storage, like a duplicated tab.
   const [copy] = await Promise.all([
     bob.page.waitForEvent("popup"),
@@ -111,14 +103,14 @@ test("a duplicated tab is somebody else", async () => {
 });
 
 test("after a reload the holder has control again", async () => {
-  explain();
+  explain(station);
   await bob.page.reload();
   await until(async () => expect(await who(bob)).toBe("You"));
   expect(await who(ada)).toBe("Bob");
 });
 
 test("the menu keeps nobody out, in either theme", async () => {
-  explain();
+  explain(station);
   await menu(bob);
   await bob.page.getByText("You command the fleet.").waitFor();
   for (const theme of ["dark", "light"] as const) {
@@ -129,7 +121,7 @@ test("the menu keeps nobody out, in either theme", async () => {
 });
 
 test("control of a holder who is gone for ten seconds goes to who asked for it", async () => {
-  explain();
+  explain(station);
   await bob.page.goto("about:blank");
   await menu(ada);
   await ada.button("Ask for control").click();
@@ -138,7 +130,7 @@ test("control of a holder who is gone for ten seconds goes to who asked for it",
 });
 
 test("what became of control is among the events, so it is in the recording", async () => {
-  explain();
+  explain(station);
   await ada.page.getByRole("tab", { name: "Events" }).click();
   const events = await ada.text(".events");
   for (const text of [
@@ -151,7 +143,7 @@ test("what became of control is among the events, so it is in the recording", as
 });
 
 test("released, control is nobody's until it is taken, and who only wants to look does not take it", async () => {
-  explain();
+  explain(station);
   await menu(ada);
   await ada.button("Release control").click();
   await until(async () => expect(await who(ada)).toBe("Nobody"));
@@ -165,7 +157,7 @@ test("released, control is nobody's until it is taken, and who only wants to loo
 });
 
 test("hold is in reach of whoever is there: it takes control that nobody holds", async () => {
-  explain();
+  explain(station);
   await menu(ada);
   await ada.button("Release control").click();
   await until(async () => expect(await who(ada)).toBe("Nobody"));

@@ -4,7 +4,7 @@ import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import axe from "axe-core";
 import { chromium, type BrowserContext, type Locator, type Page } from "playwright-core";
-import { vi } from "vitest";
+import { expect, vi } from "vitest";
 import { kPageUrl } from "./station";
 
 const kResults = fileURLToPath(new URL("test-results/", import.meta.url));
@@ -19,7 +19,7 @@ const kFlags = [
 ];
 
 /** Waits for what a person would wait for; fails with what was still wrong. */
-export const until = (what: () => Promise<void> | void, timeout = 15_000): Promise<void> =>
+export const until = (what: () => Promise<void> | void, timeout = 20_000): Promise<void> =>
   vi.waitFor(what, { timeout, interval: 50 });
 
 /** Whether it comes in sight within that time. */
@@ -94,7 +94,9 @@ export class Screen {
   uav(id: number): Promise<Uav> {
     return this.row(id).evaluate((row) => {
       const number = (selector: string) =>
-        Number((row.querySelector(selector)?.textContent ?? "").replace("\u2212", "-").replace("—", "NaN"));
+        Number(
+          (row.querySelector(selector)?.textContent || "NaN").replace("\u2212", "-").replace("—", "NaN"),
+        );
       const label = (selector: string) => row.querySelector(selector)?.getAttribute("aria-label") ?? "";
       return {
         level: label(".lamp"),
@@ -116,6 +118,18 @@ export class Screen {
       .split(":")
       .map(Number);
     return 3600 * hours + 60 * minutes + seconds;
+  }
+
+  /** How long the flight that is shown has been under way, as its clock says [s]. */
+  async elapsed_s(): Promise<number> {
+    const text = (await this.page.locator(".elapsed").innerText()).replace("T+ ", "");
+    return text.split(":").reduce((sum, part) => 60 * sum + Number(part), 0);
+  }
+
+  /** Waits until the flight has gone on by so much. */
+  async flies(duration_s: number): Promise<void> {
+    const from_s = await this.elapsed_s();
+    await until(async () => expect((await this.elapsed_s()) - from_s).toBeGreaterThanOrEqual(duration_s));
   }
 
   button(name: string): Locator {

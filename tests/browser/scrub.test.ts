@@ -1,7 +1,8 @@
 /** A recorded flight is opened and scrubbed through: played, reversed, stepped, looped, dragged; at any moment of it everything is as it was. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
+import { afterAll, beforeAll, expect, test } from "vitest";
 import { kName, RecordedFlight } from "./recorded_flight";
-import { Screen, appears } from "./screen";
+import { Screen, appears, until } from "./screen";
+import { explain } from "./station";
 import { TimeLine } from "./time_line";
 
 const flight = new RecordedFlight();
@@ -10,17 +11,9 @@ let time_line: TimeLine;
 /** How high UAV1 was when the recording ended. */
 let altitude_then_m: number;
 
-const until = (what: () => Promise<void> | void, timeout = 15_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
 const page = () => screen.page;
 const at_s = () => time_line.at_s();
 const goTo = (text: string) => time_line.goTo(text);
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${flight.station.log()}\n`);
-  });
-}
 
 beforeAll(async () => {
   await flight.start();
@@ -32,14 +25,14 @@ afterAll(async () => {
 });
 
 test("a flight with a lost link is recorded", async () => {
-  explain();
+  explain(flight.station);
   screen = await Screen.open();
   time_line = new TimeLine(screen);
   altitude_then_m = await flight.loseAndClimb(screen);
 });
 
 test("opened by a click, it stands at its beginning under a banner, and nothing can be commanded", async () => {
-  explain();
+  explain(flight.station);
   await page().keyboard.press("r");
   await page()
     .getByRole("link", { name: `Open ${kName}`, exact: true })
@@ -59,7 +52,7 @@ test("opened by a click, it stands at its beginning under a banner, and nothing 
 });
 
 test("Space plays and pauses, and the time stands while it is paused", async () => {
-  explain();
+  explain(flight.station);
   const before_s = await at_s();
   await page().keyboard.press("Space");
   await until(async () => expect(await at_s()).toBeGreaterThan(before_s + 0.5));
@@ -67,13 +60,13 @@ test("Space plays and pauses, and the time stands while it is paused", async () 
   await page().keyboard.press("Space");
   await screen.button("Play").waitFor();
   const then_s = await at_s();
-  await page().keyboard.press("."); // waits for an answer, so the pause has long been seen
-  await until(async () => expect(await at_s()).toBeGreaterThanOrEqual(then_s));
-  expect(await at_s()).toBeLessThan(then_s + 0.3);
+  for (let step = 1; step <= 10; step += 1) await page().keyboard.press(".");
+  // Ten steps of 0.05 s on, and nothing beside them.
+  await until(async () => expect(Math.abs((await at_s()) - then_s - 0.5)).toBeLessThan(0.11));
 });
 
 test("at the next alarm everything is as it was: the list, the link, the events, the altitude", async () => {
-  explain();
+  explain(flight.station);
   await page().getByRole("tab", { name: "Events" }).click();
   await page().keyboard.press("g");
   await page().keyboard.type("0");
@@ -107,7 +100,7 @@ test("at the next alarm everything is as it was: the list, the link, the events,
 });
 
 test("no alarm sounds unless it is switched on", async () => {
-  explain();
+  explain(flight.station);
   const sound = page().locator(".sound-button");
   expect(await sound.getAttribute("aria-label")).toContain("off");
   await sound.click();
@@ -118,7 +111,7 @@ test("no alarm sounds unless it is switched on", async () => {
 });
 
 test("dragged along the line, the fleet follows the hand", async () => {
-  explain();
+  explain(flight.station);
   const length_s = await time_line.duration_s();
   const moveTo = async (part: number) => {
     const { x, y } = await time_line.placeOf(part);
@@ -126,14 +119,20 @@ test("dragged along the line, the fleet follows the hand", async () => {
   };
   await moveTo(0.2);
   await page().mouse.down();
+  await until(async () => expect(Math.abs((await at_s()) - 0.2 * length_s)).toBeLessThan(0.2));
+  const from_s = await screen.elapsed_s();
   for (const part of [0.3, 0.4, 0.5, 0.6, 0.7, 0.8]) await moveTo(part);
   await until(async () => expect(Math.abs((await at_s()) - 0.8 * length_s)).toBeLessThan(0.2));
+  // The flight's own clock comes with where the fleet is.
+  await until(async () =>
+    expect(Math.abs((await screen.elapsed_s()) - from_s - 0.6 * length_s)).toBeLessThan(1.5),
+  );
   await page().mouse.up();
   await until(async () => expect(Math.abs((await at_s()) - 0.8 * length_s)).toBeLessThan(0.2));
 });
 
 test("a finger goes to a time, and two fingers show less of the recording", async () => {
-  explain();
+  explain(flight.station);
   const length_s = await time_line.duration_s();
   const hand = await page().context().newCDPSession(page());
   const touch = async (type: "touchStart" | "touchMove" | "touchEnd", ...parts: number[]) => {
@@ -162,7 +161,7 @@ test("a finger goes to a time, and two fingers show less of the recording", asyn
 });
 
 test("backwards, in fast motion, and to its end", async () => {
-  explain();
+  explain(flight.station);
   const from_s = await at_s();
   await page().keyboard.press("j");
   await until(async () => expect(await at_s()).toBeLessThan(from_s - 1));
@@ -181,7 +180,7 @@ test("backwards, in fast motion, and to its end", async () => {
 });
 
 test("between A and B it goes round", async () => {
-  explain();
+  explain(flight.station);
   await page().getByLabel("Speed").selectOption("5");
   await goTo("5");
   await until(async () => expect(await at_s()).toBe(5));
@@ -207,7 +206,7 @@ test("between A and B it goes round", async () => {
 });
 
 test("the charts show all of the flight at once, and where in it we are", async () => {
-  explain();
+  explain(flight.station);
   await page().getByRole("tab", { name: "Charts" }).click();
   const plot = page().locator('[data-chart="up_m"] .u-over');
   await plot.waitFor();
@@ -229,7 +228,7 @@ test("the charts show all of the flight at once, and where in it we are", async 
 });
 
 test("a time that is none is told beside the field, with what can be typed", async () => {
-  explain();
+  explain(flight.station);
   await goTo("soon");
   const problem = page().locator(".go-to .field-problem");
   expect(await problem.innerText()).toContain("1:30");
@@ -238,7 +237,7 @@ test("a time that is none is told beside the field, with what can be typed", asy
 });
 
 test("the line and its keys keep nobody out, in every size and theme", async () => {
-  explain();
+  explain(flight.station);
   await goTo("8");
   await time_line.line.hover();
   for (const theme of ["dark", "light"] as const) {
@@ -265,7 +264,7 @@ test("the line and its keys keep nobody out, in every size and theme", async () 
 });
 
 test("two people look at different moments of it", async () => {
-  explain();
+  explain(flight.station);
   const here_s = await at_s();
   const other = await Screen.open(`?recording=${kName}`);
   const there = new TimeLine(other);
@@ -279,8 +278,8 @@ test("two people look at different moments of it", async () => {
 });
 
 test("when the bridge comes back, the page is where it was", async () => {
-  explain();
-  const before_s = await at_s();
+  explain(flight.station);
+  const [before_s, elapsed_s] = [await at_s(), await screen.elapsed_s()];
   await flight.station.stop("web-bridge");
   await until(async () => expect(await screen.text(".banner")).toContain("Reconnecting"));
   flight.station.start("web-bridge");
@@ -290,6 +289,7 @@ test("when the bridge comes back, the page is where it was", async () => {
     expect(await time_line.line.getAttribute("aria-disabled")).toBe("false");
     expect(await at_s()).toBeCloseTo(before_s, 1);
   }, 30_000);
+  expect(await screen.elapsed_s()).toBe(elapsed_s);
   // The connection that broke is in the console; that is how browsers are.
   screen.complaints.length = 0;
 });

@@ -1,19 +1,10 @@
 /** A person who tries things out on a simulated fleet: cuts links, makes them lossy, starts the scenario anew, loads another. */
-import { afterAll, beforeAll, expect, onTestFailed, test, vi } from "vitest";
-import { Screen } from "./screen";
-import { Station } from "./station";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import { Screen, until } from "./screen";
+import { explain, Station } from "./station";
 
 const station = new Station({ scenario: "simulation.json" });
 let screen: Screen;
-
-const until = (what: () => Promise<void> | void, timeout = 10_000) =>
-  vi.waitFor(what, { timeout, interval: 50 });
-
-function explain(): void {
-  onTestFailed(() => {
-    process.stderr.write(`${station.log()}\n`);
-  });
-}
 
 /** What the panel says was done last to the link of a UAV. */
 const word = (id: number) => screen.text(`.links li[data-id="${id}"] .last-word`);
@@ -44,7 +35,7 @@ afterAll(async () => {
 });
 
 test("the downlink of one UAV is cut for some seconds, and comes back by itself", async () => {
-  explain();
+  explain(station);
   await screen.row(2).getByText("UAV2", { exact: true }).click();
   await choose("Downlink");
   await type("For [s]", "5");
@@ -60,7 +51,7 @@ test("the downlink of one UAV is cut for some seconds, and comes back by itself"
 });
 
 test("a link is made slow and lossy, and good again", async () => {
-  explain();
+  explain(station);
   await choose("Both");
   await type("For [s]", "always");
   await type("Delay [s]", "0.5");
@@ -75,7 +66,7 @@ test("a link is made slow and lossy, and good again", async () => {
 });
 
 test("all links are cut at once, and restored", async () => {
-  explain();
+  explain(station);
   // Not by a click on the row: the worst come first, and UAV2 has just become better.
   await screen.button("Clear").click();
   await screen.button("Cut the links of all 2 UAVs").click();
@@ -98,7 +89,7 @@ test("all links are cut at once, and restored", async () => {
 });
 
 test("the scenario is started anew after a second look", async () => {
-  explain();
+  explain(station);
   const before_s = await elapsed_s();
   await screen.button("Restart…").click();
   await screen.button("Cancel").click();
@@ -116,7 +107,7 @@ test("the scenario is started anew after a second look", async () => {
 });
 
 test("another scenario with more UAVs is chosen, read about and loaded", async () => {
-  explain();
+  explain(station);
   await screen.button("Load another…").click();
   const choice = screen.page.locator(".scenario-choice", {
     hasText: "Four abreast",
@@ -150,7 +141,7 @@ test("another scenario with more UAVs is chosen, read about and loaded", async (
 });
 
 test("without a simulator the panel says so", async () => {
-  explain();
+  explain(station);
   await station.stop("fleet-simulator");
   await screen.page.getByText("No simulator is on the bus.").waitFor();
   expect(await screen.barriers()).toEqual([]);

@@ -9,8 +9,9 @@ export class TimeLine {
     this.line = screen.page.getByRole("slider", { name: /^Time in the recording/ });
   }
 
-  /** What it says is played [s]. */
+  /** What it says is played [s]; NaN while that is only where a person wants to be. */
   async at_s(): Promise<number> {
+    if ((await this.line.getAttribute("aria-busy")) !== "false") return NaN;
     const parts = (await this.screen.text(".transport-now")).split(":").map(Number);
     const [hours = NaN, minutes = NaN, seconds = NaN] = parts;
     return 3600 * hours + 60 * minutes + seconds;

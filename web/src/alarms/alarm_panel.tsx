@@ -3,7 +3,7 @@ import type { Alarm, AlarmList } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
 import type { PanelProps } from "../shell/panel_props";
 import type { Station } from "../shell/station";
-import { acknowledgeAll, groupsOf, wantsAcknowledgement } from "./alarm_list";
+import { acknowledgeAll, groupsOf } from "./alarm_list";
 import { AlarmRow } from "./alarm_row";
 import { sendAlarm } from "./send";
 import { whyNoAlarms } from "./service";
@@ -14,19 +14,23 @@ export function AlarmPanel({ station }: PanelProps) {
   const list = store.alarms.value;
   const { open, shelved, over } = groupsOf(list);
   const trouble = whyNoAlarms(store, store.now_ms.value);
-  const unacknowledged = open.filter(wantsAcknowledgement).length;
+  const unacknowledged =
+    (list?.num_unacknowledged_warnings ?? 0) +
+    (list?.num_unacknowledged_cautions ?? 0) +
+    (list?.num_unacknowledged_advisories ?? 0);
+  const not_listed = list?.num_not_listed ?? 0;
   return (
     <section class="alarms" aria-label="Alarms">
       <header class="alarms-head">
-        <p>
-          {open.length === 0
-            ? ""
-            : `${unacknowledged} of ${open.length + (list?.num_not_listed ?? 0)} not acknowledged`}
-        </p>
+        <p>{open.length === 0 ? "" : `${unacknowledged} of ${open.length + not_listed} not acknowledged`}</p>
         {list !== null && (
           <CommandButton
             class="button acknowledge-all"
-            label="Acknowledge all that is listed (Shift+A)"
+            label={
+              not_listed === 0
+                ? "Acknowledge all (Shift+A)"
+                : `Acknowledge all, and the ${not_listed} that are not listed (Shift+A)`
+            }
             disabled={unacknowledged === 0}
             command={() => sendAlarm(station, acknowledgeAll(list))}
           >

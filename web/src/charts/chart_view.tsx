@@ -4,6 +4,7 @@ import type uPlot from "uplot";
 import { identityOf, readColours } from "../map/colours";
 import { theme } from "../state/settings";
 import { clock, fixed, kNone } from "../units/format";
+import { inChosenUnits } from "../units/station_text";
 import { chartData } from "./chart_data";
 import type { ChartSpec } from "./chart_list";
 import { makePlot, showData } from "./chart_plot";
@@ -129,7 +130,7 @@ export function ChartView(props: ChartViewProps) {
         <div class="chart-tip" style={{ left: `${told.value.left_px}px` }} role="tooltip">
           {told.value.marks.map((mark) => (
             <p key={`${mark.t_s}${mark.text}`}>
-              <time>T+ {clock(mark.t_s)}</time> {mark.text}
+              <time>T+ {clock(mark.t_s)}</time> {inChosenUnits(mark.text)}
             </p>
           ))}
         </div>

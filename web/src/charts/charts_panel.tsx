@@ -11,7 +11,7 @@ import { cursor_s, hidden_charts, showFlight, time_window } from "./charts_state
 import { ChartsToolbar } from "./charts_toolbar";
 import { toCsv } from "./csv";
 import { drawnIds } from "./curves";
-import { download, fileName } from "./download";
+import { download, fileName } from "../shell/download";
 import { marksOf } from "./event_marks";
 import { FlightCurves } from "./flight_curves";
 import { drawPicture } from "./png";

@@ -17,14 +17,16 @@ interface ApplyProps {
 /** What Apply would do: flown ahead, with what speaks against it; and the button that does it. */
 export function ApplyBar({ editor, session }: ApplyProps) {
   const { store } = editor.station;
-  const overridden = useSignal<object | null>(null);
+  const overridden = useSignal<{ draft: object; risks: string } | null>(null);
   const draft = session.draft.value;
   const preview = editor.preview.state.value;
   const problems = editor.problems.value;
   const risks = risksOf(editor.conflicts.value, preview, (id) => store.callsign(id));
   const changed = session.changed.value;
   const waits = preview.kind === "waiting" || preview.kind === "running" || editor.proposing.value;
-  const accepted_risks = overridden.value === draft;
+  // Those that were in sight, and no others that a later flight finds.
+  const named = risks.map(({ text }) => text).join("\n");
+  const accepted_risks = overridden.value?.draft === draft && overridden.value.risks === named;
   const ready = changed && problems.length === 0 && !waits && (risks.length === 0 || accepted_risks);
   return (
     <footer class="apply-bar">
@@ -51,7 +53,8 @@ export function ApplyBar({ editor, session }: ApplyProps) {
               type="checkbox"
               checked={accepted_risks}
               onChange={(event) => {
-                overridden.value = event.currentTarget.checked ? draft : null;
+                editor.preview.keep();
+                overridden.value = event.currentTarget.checked ? { draft, risks: named } : null;
               }}
             />
             Apply all the same
@@ -69,7 +72,9 @@ export function ApplyBar({ editor, session }: ApplyProps) {
           type="button"
           class="button"
           disabled={!changed}
-          title="Back to what is flown; can be undone"
+          title={
+            session.flown.value === null ? "Forgets this formation" : "Back to what is flown; can be undone"
+          }
           onClick={() => {
             editor.discard();
           }}
@@ -104,29 +109,47 @@ function PreviewFigures({ editor, preview }: { editor: FormationEditor; preview:
       </div>
     );
   }
-  if (preview.kind !== "done" || !preview.result.ok) return null;
+  if (preview.kind === "none") return null;
+  if (preview.kind === "failed" || !preview.result.ok) {
+    return (
+      <div class="preview">
+        <div class="preview-head">
+          <span>Not flown ahead</span>
+          <AgainButton editor={editor} title="Try to fly it ahead again" />
+        </div>
+      </div>
+    );
+  }
   const { result } = preview;
   const age_s = Math.floor(Math.max(0, now_ms - preview.at_ms) / 1000);
   return (
     <div class="preview">
       <div class="preview-head">
-        <span title={`Flown ahead ${duration(result.duration_s)}, ${duration(age_s)} ago`}>Flown ahead</span>
+        <span title={`For ${duration(result.duration_s)}, from where the fleet was ${duration(age_s)} ago`}>
+          Flown ahead {duration(age_s)} ago
+        </span>
         <Scrubber editor={editor} result={result} />
-        <button
-          type="button"
-          class="button quiet"
-          aria-label="Fly it ahead again"
-          title={`Flown ${duration(age_s)} ago: fly it ahead again, from where the fleet is now`}
-          onClick={() => {
-            editor.preview.again();
-          }}
-        >
-          ↻
-        </button>
+        <AgainButton editor={editor} title="Fly it ahead again, from where the fleet is now" />
       </div>
       <Figures result={result} callsign={(id) => store.callsign(id)} />
       <p class="hint">{kLeftOut}</p>
     </div>
+  );
+}
+
+function AgainButton({ editor, title }: { editor: FormationEditor; title: string }) {
+  return (
+    <button
+      type="button"
+      class="button quiet"
+      aria-label="Fly it ahead again"
+      title={title}
+      onClick={() => {
+        editor.preview.again();
+      }}
+    >
+      ↻
+    </button>
   );
 }
 

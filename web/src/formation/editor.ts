@@ -131,7 +131,11 @@ export class FormationEditor {
     const session = this.session.peek();
     const draft = session?.draft.peek();
     const ground = this.ground(performance.now());
-    if (session === null || draft === undefined || ground === null) return;
+    if (session === null || draft === undefined) return;
+    if (ground === null) {
+      session.history.endGesture();
+      return;
+    }
     // Those that were never heard keep their slots.
     const heard = draft.slots.flatMap(({ vehicle_id }, slot) => {
       const at = this.flying(vehicle_id, performance.now());

@@ -23,6 +23,7 @@ export function HoldControl({ station }: PanelProps) {
       keys: "h",
       label: "Hold: all formations loiter where they are",
       group: "Flight",
+      over_dialogs: true,
       run: () => {
         press("hold-all");
       },

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { ApiError } from "../link/api";
 import { newDraft, withSpacing } from "./draft";
-import { Preview, type FormationPreview } from "./preview";
+import { kOld_ms, Preview, type FormationPreview } from "./preview";
 
 const kResult: FormationPreview = {
   ok: true,
@@ -88,4 +88,20 @@ test("a bridge that can't is told of", async () => {
   preview.want(triangle);
   await vi.advanceTimersByTimeAsync(1000);
   expect(preview.state.value).toEqual({ kind: "failed", reason: "web-bridge answered 404." });
+});
+
+test("what is old is flown anew, and stays in sight meanwhile", async () => {
+  const { asked, preview } = bridge();
+  preview.want(triangle);
+  await vi.advanceTimersByTimeAsync(1000);
+  asked[0]?.answer(kResult);
+  await vi.advanceTimersByTimeAsync(kOld_ms + 1000);
+  expect(asked).toHaveLength(2);
+  expect(preview.state.value).toMatchObject({ kind: "done", result: kResult });
+  asked[1]?.answer({ ...kResult, settle_s: 21 });
+  await vi.advanceTimersByTimeAsync(0);
+  expect(preview.state.value).toMatchObject({ kind: "done", result: { settle_s: 21 } });
+  preview.keep();
+  await vi.advanceTimersByTimeAsync(10 * kOld_ms);
+  expect(asked).toHaveLength(2);
 });

@@ -1,6 +1,6 @@
 /** A draft flown ahead by the bridge, from the state of now and by the code that will fly it. */
 import { signal, type ReadonlySignal } from "@preact/signals";
-import { ApiError, type Api } from "../link/api";
+import type { Api } from "../link/api";
 import { bodyOf, type Draft } from "./draft";
 
 /** Answer to POST /api/preview/formation (cpp/bridge/README.md). When it is not `ok`, nothing else is told. */
@@ -53,6 +53,9 @@ export type PreviewState =
 
 /** Edits have settled after this long. */
 const kSettled_ms = 500;
+/** The fleet flies on: what was flown ahead counts for so long, and is flown anew; not most of the time, though. */
+export const kOld_ms = 15_000;
+const kLeastRest = 10;
 
 export class Preview {
   private readonly now = signal<PreviewState>({ kind: "none" });
@@ -81,6 +84,11 @@ export class Preview {
     if (draft !== null) this.want(draft, 0);
   }
 
+  /** Does not fly it anew: somebody has made up their mind about what is in sight. */
+  keep(): void {
+    clearTimeout(this.timer);
+  }
+
   clear(): void {
     clearTimeout(this.timer);
     this.request.abort();
@@ -91,15 +99,22 @@ export class Preview {
   private async fly(draft: Draft): Promise<void> {
     const request = new AbortController();
     this.request = request;
-    this.now.value = { kind: "running", since_ms: performance.now() };
+    const since_ms = performance.now();
+    // While the same draft is flown anew, what was found before stays in sight.
+    if (this.now.peek().kind !== "done") this.now.value = { kind: "running", since_ms };
     try {
       const body = { formation: bodyOf(draft) };
       const result = await this.api.postJson<FormationPreview>("api/preview/formation", body, request.signal);
-      if (!request.signal.aborted) this.now.value = { kind: "done", result, at_ms: performance.now() };
+      if (request.signal.aborted) return;
+      const at_ms = performance.now();
+      this.now.value = { kind: "done", result, at_ms };
+      const rest_ms = Math.max(kOld_ms, kLeastRest * (at_ms - since_ms));
+      this.timer = setTimeout(() => {
+        void this.fly(draft);
+      }, rest_ms);
     } catch (error) {
       if (request.signal.aborted) return;
-      if (!(error instanceof ApiError)) throw error;
-      this.now.value = { kind: "failed", reason: error.message };
+      this.now.value = { kind: "failed", reason: error instanceof Error ? error.message : String(error) };
     }
   }
 }

@@ -9,38 +9,46 @@ export class Api {
 
   /** Throws ApiError; an aborted request throws the abort's reason. */
   async getJson<T>(path: string, abort?: AbortSignal): Promise<T> {
-    return (await this.fetch(path, { signal: abort ?? null })).json() as Promise<T>;
+    return this.fetch(path, { signal: abort ?? null }, json<T>);
   }
 
   async getBytes(path: string, abort?: AbortSignal): Promise<ArrayBuffer> {
-    return (await this.fetch(path, { signal: abort ?? null })).arrayBuffer();
+    return this.fetch(path, { signal: abort ?? null }, (response) => response.arrayBuffer());
   }
 
   async postJson<T>(path: string, body: unknown, abort?: AbortSignal): Promise<T> {
-    const response = await this.fetch(path, {
+    const options = {
       method: "POST",
       headers: { "Content-Type": "application/json" },
       body: JSON.stringify(body),
       signal: abort ?? null,
-    });
-    return response.json() as Promise<T>;
+    };
+    return this.fetch(path, options, json<T>);
   }
 
   async delete<T>(path: string, headers: Record<string, string>): Promise<T> {
-    return (await this.fetch(path, { method: "DELETE", headers })).json() as Promise<T>;
+    return this.fetch(path, { method: "DELETE", headers }, json<T>);
   }
 
-  private async fetch(path: string, options: RequestInit): Promise<Response> {
-    let response: Response;
+  /** `read` is part of it: a bridge may end in the midst of its answer. */
+  private async fetch<T>(
+    path: string,
+    options: RequestInit,
+    read: (response: Response) => Promise<T>,
+  ): Promise<T> {
     try {
-      response = await fetch(new URL(path, this.base), options);
+      const response = await fetch(new URL(path, this.base), options);
+      if (!response.ok) throw new ApiError(await reasonOf(response));
+      return await read(response);
     } catch (error) {
-      if (options.signal?.aborted) throw error;
+      if (error instanceof ApiError || options.signal?.aborted) throw error;
       throw new ApiError("web-bridge can't be reached.");
     }
-    if (!response.ok) throw new ApiError(await reasonOf(response));
-    return response;
   }
+}
+
+function json<T>(response: Response): Promise<T> {
+  return response.json() as Promise<T>;
 }
 
 /** The bridge tells why in JSON with a `reason`, or in a plain sentence. */

@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
-import { enuText, latLonText, mgrsText, wrapped } from "./coordinates";
+import { wrapped } from "../units/geodesy";
+import { enuText, latLonText, mgrsText } from "./coordinates";
 
 const at = (latitude_deg: number, longitude_deg: number) => ({ latitude_deg, longitude_deg });
 

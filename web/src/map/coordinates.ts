@@ -1,6 +1,6 @@
 /** A place on the map, as people write it down. */
 import { forward } from "mgrs";
-import type { LatLon } from "../units/geodesy";
+import { wrapped, type LatLon } from "../units/geodesy";
 import { fixed, kNone } from "../units/format";
 import { distance } from "../units/quantities";
 import type { EnuPoint } from "./map_access";
@@ -10,11 +10,6 @@ const kDecimals = 5;
 /** MGRS covers 80 S to 84 N; the poles have another system. */
 const kMgrsSouth_deg = -80;
 const kMgrsNorth_deg = 84;
-
-/** -180 to 180, however often the map was turned around the world. */
-export function wrapped(longitude_deg: number): number {
-  return ((((longitude_deg + 180) % 360) + 360) % 360) - 180;
-}
 
 export function latLonText({ latitude_deg, longitude_deg }: LatLon): string {
   const part = (value: number, positive: string, negative: string) =>

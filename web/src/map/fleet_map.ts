@@ -158,6 +158,10 @@ export class FleetMap implements MapAccess {
     tool?.onLost();
   }
 
+  keepsLongPress(at: L.Point): boolean {
+    return this.tool !== null || this.fleet.pick(at, kFinger_px) !== null;
+  }
+
   claim(tool: MapTool): () => void {
     this.dropTool();
     this.tool = tool;

@@ -1,5 +1,5 @@
 /** The lines over the map: meridians and parallels far out, the local grid in metres near by. */
-import type { LocalFrame } from "../units/geodesy";
+import { wrapped, type LocalFrame } from "../units/geodesy";
 import { lengthInSteps, roundLength_m } from "../units/quantities";
 import type { Colours } from "./colours";
 import { latitudeOf, mercatorX, mercatorY, pixelOf, pixelsPerMetre, xOf, yOf, type View } from "./view";
@@ -55,29 +55,34 @@ function drawLocalGrid(
   const per_metre = pixelsPerMetre(view, frame.origin.latitude_deg);
   const middle = middleOf(view, frame, per_metre);
   // Half a view more on each side: away from the origin the grid leans against the map's north.
-  const east = rangeAround(middle.east_m, view.width_px / per_metre, step_m);
-  const north = rangeAround(middle.north_m, view.height_px / per_metre, step_m);
+  const east = stepsAround(middle.east_m, view.width_px / per_metre, step_m);
+  const north = stepsAround(middle.north_m, view.height_px / per_metre, step_m);
+  const [west_m, east_m] = [east.from * step_m, east.to * step_m];
+  const [south_m, north_m] = [north.from * step_m, north.to * step_m];
   const label = (value_m: number, positive: string, negative: string) =>
     `${lengthInSteps(Math.abs(value_m), step_m)} ${value_m < 0 ? negative : positive}`;
 
-  for (let e = east.from; e <= east.to; e += step_m) {
-    const [a, b] = [pixelOf(view, frame, e, north.from, 0), pixelOf(view, frame, e, north.to, 0)];
+  // Counted in steps: a sum of steps in feet would miss zero.
+  for (let i = east.from; i <= east.to; i += 1) {
+    const e = i * step_m;
+    const [a, b] = [pixelOf(view, frame, e, south_m, 0), pixelOf(view, frame, e, north_m, 0)];
     line(context, a, b, e === 0 ? colours.map_axis : colours.map_grid);
     const x = a.x + ((kLabelTop_px - a.y) / (b.y - a.y)) * (b.x - a.x);
     text(context, label(e, "E", "W"), x + 4, kLabelTop_px, colours);
   }
-  for (let n = north.from; n <= north.to; n += step_m) {
-    const [a, b] = [pixelOf(view, frame, east.from, n, 0), pixelOf(view, frame, east.to, n, 0)];
+  for (let i = north.from; i <= north.to; i += 1) {
+    const n = i * step_m;
+    const [a, b] = [pixelOf(view, frame, west_m, n, 0), pixelOf(view, frame, east_m, n, 0)];
     line(context, a, b, n === 0 ? colours.map_axis : colours.map_grid);
     const y = a.y + ((kLabelLeft_px - a.x) / (b.x - a.x)) * (b.y - a.y);
     text(context, label(n, "N", "S"), kLabelLeft_px, y - 4, colours);
   }
 }
 
-function rangeAround(middle: number, extent: number, step: number): { from: number; to: number } {
+function stepsAround(middle: number, extent: number, step: number): { from: number; to: number } {
   return {
-    from: Math.floor((middle - extent) / step) * step,
-    to: Math.ceil((middle + extent) / step) * step,
+    from: Math.floor((middle - extent) / step),
+    to: Math.ceil((middle + extent) / step),
   };
 }
 
@@ -90,8 +95,7 @@ function drawGraticule(context: CanvasRenderingContext2D, view: View, colours: C
   for (let i = Math.ceil(west / step); i * step <= east; i += 1) {
     const x = xOf(view, mercatorX(i * step));
     line(context, { x, y: 0 }, { x, y: view.height_px }, colours.map_grid);
-    const wrapped = ((((i * step + 180) % 360) + 360) % 360) - 180;
-    text(context, degrees(wrapped, decimals, "E", "W"), x + 4, kLabelTop_px, colours);
+    text(context, degrees(wrapped(i * step), decimals, "E", "W"), x + 4, kLabelTop_px, colours);
   }
   const north = Math.min(latitudeOf(view.top_px / view.scale_px), 84);
   const south = Math.max(latitudeOf((view.top_px + view.height_px) / view.scale_px), -84);

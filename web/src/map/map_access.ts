@@ -26,6 +26,8 @@ export interface MapAccess {
    * time: a later claim ends the earlier one, which is told by `onLost`.
    */
   claim(tool: MapTool): () => void;
+  /** A long press there selects a UAV, or is nobody's because a tool has the map. */
+  keepsLongPress(at: L.Point): boolean;
 }
 
 export interface MapTool {

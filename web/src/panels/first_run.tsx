@@ -83,9 +83,12 @@ function CommandLine({ text }: { text: string }) {
   const copied = useSignal(false);
   const copy = () => {
     // Browsers allow it only to pages of this machine or over TLS; the text can be selected by hand just as well.
-    void navigator.clipboard?.writeText(text).then(() => {
-      copied.value = true;
-    });
+    void navigator.clipboard?.writeText(text).then(
+      () => {
+        copied.value = true;
+      },
+      () => undefined,
+    );
   };
   return (
     <div class="command-line">

@@ -19,6 +19,8 @@ interface NumberFieldProps {
   /** What is shown for zero, and may be typed or left empty for it: "auto". */
   zero?: string;
   disabled?: boolean;
+  /** What else may be wrong with a number [SI] that is within the limits; null: nothing. */
+  check?: (si: number) => string | null;
 }
 
 /** A number in the unit that the person has chosen, checked where it is typed. Enter or leaving takes it, Escape takes it back. */
@@ -40,7 +42,9 @@ export function NumberField(props: NumberFieldProps) {
       : zero !== undefined && props.value === 0
         ? zero
         : plain(quantity.value(props.value), decimals);
-  const problem = typed.value === null || typed.value === shown ? null : numberProblem(typed.value, limits);
+  const problemOf = (text: string) =>
+    numberProblem(text, limits) ?? props.check?.(quantity.toSi(parseNumber(text, zero) ?? 0)) ?? null;
+  const problem = typed.value === null || typed.value === shown ? null : problemOf(typed.value);
 
   const take = () => {
     const text = typed.value;
@@ -54,6 +58,7 @@ export function NumberField(props: NumberFieldProps) {
     const from = parseNumber(typed.value ?? shown, zero);
     if (from === null) return;
     const to = Math.min(Math.max(from + steps * step, limits.least), limits.most);
+    if ((props.check?.(quantity.toSi(to)) ?? null) !== null) return;
     typed.value = null;
     props.commit(quantity.toSi(to));
   };

@@ -1,5 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { download } from "../shell/download";
 import type { Station } from "../shell/station";
 import { PathFileError } from "./path_file";
 import { kFileKinds, kLargestFile_bytes, readPathFile, writePathFile, type FileKind } from "./path_files";
@@ -56,7 +57,8 @@ export function FileTools({ station, planner }: FileToolsProps) {
     const geometry = planner.preview.geometry.peek();
     const line = geometry?.plan === plan ? geometry.preview.line : [];
     const name = planner.formation_name.value;
-    download(`${name}.${kind}`, mime, writePathFile(kind, plan, line, frame, name));
+    const text = writePathFile(kind, plan, line, frame, name);
+    download(`${name}.${kind}`, new Blob([text], { type: mime }));
   };
   return (
     <details
@@ -147,12 +149,4 @@ async function readInto(planner: Planner, station: Station, file: File): Promise
   } catch (error) {
     return refuse(error instanceof PathFileError ? error.message : `It can't be read: ${String(error)}`);
   }
-}
-
-function download(name: string, mime: string, text: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(new Blob([text], { type: mime }));
-  link.download = name;
-  link.click();
-  URL.revokeObjectURL(link.href);
 }

@@ -4,7 +4,7 @@
  */
 import type { Feature, FeatureCollection, Position } from "geojson";
 import type { Waypoint } from "../link/messages";
-import type { LocalFrame } from "../units/geodesy";
+import { wrapped, type LocalFrame } from "../units/geodesy";
 import { kAltitudeRange_m, kRadiusRange_m, kSpeedRange_m_s, type PathPlan } from "./path_plan";
 import {
   isObject,
@@ -38,7 +38,7 @@ export function toGeoJson(plan: PathPlan, line: Line, frame: LocalFrame): Featur
   };
   const features: Feature[] = plan.waypoints.map((point) => ({
     type: "Feature",
-    geometry: { type: "Point", coordinates: position(point.east_m, point.north_m, point.up_m) },
+    geometry: { type: "Point", coordinates: within180(position(point.east_m, point.north_m, point.up_m)) },
     properties: {
       speed_m_s: point.speed_m_s,
       turn_radius_m: point.turn_radius_m,
@@ -48,11 +48,16 @@ export function toGeoJson(plan: PathPlan, line: Line, frame: LocalFrame): Featur
   if (line.length > 1) {
     features.unshift({
       type: "Feature",
+      // Not wrapped: a line that leaps from 180 to -180 would be drawn around the world.
       geometry: { type: "LineString", coordinates: line.map((point) => position(...point)) },
       properties: { flown: true },
     });
   }
   return { type: "FeatureCollection", features };
+}
+
+function within180([longitude_deg = 0, ...others]: Position): Position {
+  return [wrapped(longitude_deg), ...others];
 }
 
 /**

@@ -5,6 +5,7 @@ import { identityOf, readColours } from "../map/colours";
 import type { MapAccess } from "../map/map_access";
 import { theme } from "../state/settings";
 import { altitudeAbove, speed } from "../units/quantities";
+import { inChosenUnits } from "../units/station_text";
 import { toLocal } from "./path_file";
 import { legEnds, midway, type PathPlan, type Place } from "./path_plan";
 import type { Planner } from "./planner";
@@ -78,6 +79,8 @@ export class MapEditor {
     // A long press, or the other mouse button, adds without drawing.
     const long_press = (event: L.LeafletMouseEvent) => {
       event.originalEvent.preventDefault();
+      const kept = !this.planner.drawing.peek() && this.map.keepsLongPress(event.containerPoint);
+      if (kept || this.planner.review.peek() !== null) return;
       this.add(event.latlng);
     };
     leaflet.on("zoomend", redraw).on("click", press).on("contextmenu", long_press);
@@ -157,7 +160,7 @@ export class MapEditor {
         {
           at,
           text: String(i + 1),
-          label: `Waypoint ${i + 1}: ${values}${problem === undefined ? "" : `. ${problem}`}`,
+          label: `Waypoint ${i + 1}: ${values}${problem === undefined ? "" : `. ${inChosenUnits(problem)}`}`,
           caption: (plan?.waypoints.length ?? 0) > kMostCaptions ? "" : altitudeAbove(point.up_m),
           selected: draft?.selected.value === i,
           problem: problem !== undefined,

@@ -36,6 +36,11 @@ export function toLocal(frame: LocalFrame, { latitude_deg, longitude_deg, up_m }
   return { east_m: at.east_m, north_m: at.north_m, up_m };
 }
 
+/** Whether a path may go there. */
+export function isNearby(frame: LocalFrame, place: FilePlace): boolean {
+  return greatCircle_m(frame, place) <= kFarthest_m;
+}
+
 /** As `toLocal`; refuses what is too far away to be meant, and for the plane. */
 export function toLocalNearby(frame: LocalFrame, place: FilePlace, where: string) {
   const distance_m = greatCircle_m(frame, place);

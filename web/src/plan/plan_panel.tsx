@@ -202,6 +202,14 @@ function PlanFoot({ planner, draft }: PartProps) {
         <span>
           Time <b>{clock(time_s)}</b>
         </span>
+        {!planner.legs.value.some(({ from }) => from === null) && plan.waypoints.length > 1 && (
+          <span
+            class="hint"
+            title="From the first waypoint on, without arcs; as it is flown once it is checked"
+          >
+            straight lines
+          </span>
+        )}
         {problems > 0 && <b>{problems === 1 ? "1 problem" : `${problems} problems`}</b>}
       </p>
       <FlightAhead planner={planner} plan={plan} />

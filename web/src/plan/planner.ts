@@ -30,7 +30,8 @@ export class Planner {
   readonly legs: ReadonlySignal<readonly FlownLeg[]>;
   /** Why the plan can't be sent, or not yet; "" when it can. */
   readonly why_not: ReadonlySignal<string>;
-  private readonly drafts = new Map<number, PathDraft>();
+  /** By formation and local origin: metres from one origin mean nothing at another. */
+  private readonly drafts = new Map<string, PathDraft>();
 
   constructor(readonly station: Station) {
     const { store } = station;
@@ -49,7 +50,9 @@ export class Planner {
     );
     this.draft = computed(() => {
       const id = this.formation_id.value;
-      return id === null ? null : untracked(() => this.draftOf(id));
+      const origin = store.roster.value?.origin;
+      const frame = origin && [origin.latitude_deg, origin.longitude_deg, origin.altitude_m].join();
+      return id === null ? null : untracked(() => this.draftOf(id, `${id}/${frame ?? ""}`));
     });
     this.legs = computed(() => {
       const plan = this.draft.value?.plan.value ?? kStraightOn;
@@ -143,6 +146,8 @@ export class Planner {
 
   startReview(): void {
     this.drawing.value = false;
+    // What is edited after this is a step of its own.
+    this.draft.peek()?.history.endGesture();
     void this.preview.refresh();
     this.review.value = this.draft.peek()?.plan.peek() ?? null;
   }
@@ -169,8 +174,8 @@ export class Planner {
     return outcome;
   }
 
-  private draftOf(id: number): PathDraft {
-    const known = this.drafts.get(id);
+  private draftOf(id: number, key: string): PathDraft {
+    const known = this.drafts.get(key);
     if (known !== undefined) return known;
     let last = kStraightOn;
     const flown = computed(() => {
@@ -180,7 +185,7 @@ export class Planner {
       return last;
     });
     const draft = new PathDraft(flown);
-    this.drafts.set(id, draft);
+    this.drafts.set(key, draft);
     return draft;
   }
 }

@@ -101,6 +101,22 @@ test("a failure is told, and forgotten with the next answer", async () => {
   expect(preview.failure.value).toBe("");
 });
 
+test("a flight that failed is tried again", async () => {
+  const preview = new Preview(api);
+  preview.want(1, plan(1));
+  asked[0]?.answer(true);
+  await vi.advanceTimersByTimeAsync(kQuiet_ms);
+  asked[1]?.fail("Three are waiting already.");
+  await settle();
+  void preview.refresh();
+  asked[2]?.answer(true);
+  await settle();
+  expect(asked.map((one) => one.quick)).toEqual([true, false, true, false]);
+  asked[3]?.answer(true);
+  await settle();
+  expect([preview.failure.value, preview.flight.value?.plan]).toEqual(["", plan(1)]);
+});
+
 test("as the formation flies on the geometry is asked for again, and the flight once it is old", async () => {
   const preview = new Preview(api);
   preview.want(1, plan(1));

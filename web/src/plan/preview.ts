@@ -75,11 +75,14 @@ export class Preview {
     const { wanted } = this;
     if (wanted === null || this.asking) return;
     await this.askGeometry(wanted);
+    if (wanted !== this.wanted || this.flying.peek() || this.timer !== undefined) return;
+    if (this.geometry.peek()?.preview.ok !== true) return;
     const flight = this.flight.peek();
-    if (wanted !== this.wanted || flight === null || this.flying.peek()) return;
+    // When it has failed before, or could not be asked for.
+    if (flight?.plan !== wanted.plan) return this.fly(wanted);
     const age_ms = performance.now() - flight.at_ms;
     const old_ms = Math.max(kFlightOld_ms, kLeastRest * flight.preview.computed_ms);
-    if (age_ms > old_ms && this.geometry.peek()?.preview.ok === true) await this.fly(wanted);
+    if (age_ms > old_ms) await this.fly(wanted);
   }
 
   /** Asks for nothing any more. */
@@ -97,6 +100,7 @@ export class Preview {
 
   private cancelFlight(): void {
     clearTimeout(this.timer);
+    this.timer = undefined;
     this.abort.abort();
     this.flying.value = false;
   }
@@ -134,6 +138,7 @@ export class Preview {
   private planFlight(wanted: NonNullable<typeof this.wanted>): void {
     if (this.geometry.peek()?.preview.ok !== true) return;
     this.timer = setTimeout(() => {
+      this.timer = undefined;
       void this.fly(wanted);
     }, kQuiet_ms);
   }

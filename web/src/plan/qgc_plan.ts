@@ -5,7 +5,7 @@
  * The format has no turn radius: it goes into a key of our own, which QGroundControl ignores.
  */
 import type { Waypoint } from "../link/messages";
-import type { LocalFrame } from "../units/geodesy";
+import { wrapped, type LocalFrame } from "../units/geodesy";
 import {
   isObject,
   numberWithin,
@@ -57,7 +57,15 @@ export function toQgcPlan(plan: PathPlan, frame: LocalFrame): unknown {
     add({
       command: kNavWaypoint,
       frame: 3,
-      params: [0, 0, 0, null, rounded(at.latitude_deg, 10), rounded(at.longitude_deg, 10), altitude_m],
+      params: [
+        0,
+        0,
+        0,
+        null,
+        rounded(at.latitude_deg, 10),
+        rounded(wrapped(at.longitude_deg), 10),
+        altitude_m,
+      ],
       AMSLAltAboveTerrain: null,
       Altitude: altitude_m,
       AltitudeMode: 1,
@@ -200,13 +208,21 @@ class Reader {
   private noteHome(): void {
     const home = this.mission["plannedHomePosition"];
     if (!Array.isArray(home)) return;
-    const [latitude_deg, longitude_deg] = home as unknown[];
+    const [latitude_deg, longitude_deg, altitude_m] = home as unknown[];
     if (typeof latitude_deg !== "number" || typeof longitude_deg !== "number") return;
     const at = toLocal(this.frame, { latitude_deg, longitude_deg, up_m: 0 });
     const kSamePlace_m = 100;
     if (Math.hypot(at.east_m, at.north_m) > kSamePlace_m) {
       this.notes.add(
         "Home of the plan is not the local origin; altitudes above home are taken as above the origin.",
+      );
+      return;
+    }
+    const above_m = typeof altitude_m === "number" ? altitude_m - this.frame.origin.altitude_m : 0;
+    const kSameHeight_m = 1;
+    if (Math.abs(above_m) > kSameHeight_m) {
+      this.notes.add(
+        `Home of the plan lies ${Math.round(Math.abs(above_m))} m ${above_m > 0 ? "above" : "below"} the local origin; altitudes above home are taken as above the origin.`,
       );
     }
   }

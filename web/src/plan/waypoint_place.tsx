@@ -2,8 +2,9 @@ import { NumberField } from "../panels/number_field";
 import type { Station } from "../shell/station";
 import { Choice } from "../shell/settings_menu";
 import { oneOf, remembered } from "../state/remembered";
-import { distance, type Quantity } from "../units/quantities";
-import { toLocal } from "./path_file";
+import { wrapped } from "../units/geodesy";
+import { distance, farDistance, type Quantity } from "../units/quantities";
+import { isNearby, toLocal } from "./path_file";
 import type { PathDraft } from "./path_draft";
 import { kFarthest_m } from "./path_plan";
 
@@ -39,8 +40,11 @@ export function WaypointPlace({ station, draft }: WaypointPlaceProps) {
     const { east_m, north_m } = toLocal(frame, { latitude_deg, longitude_deg, up_m: point.up_m });
     move({ east_m, north_m });
   };
-  // Within a hundred kilometres or so of the origin: what lies further out is no place to fly.
-  const around = (degrees: number) => ({ least: degrees - 2, most: degrees + 2 });
+  // By distance: degrees of longitude become short towards the poles.
+  const check = (latitude_deg: number, longitude_deg: number) =>
+    frame === null || isNearby(frame, { latitude_deg, longitude_deg, up_m: point.up_m })
+      ? null
+      : `More than ${farDistance(kFarthest_m)} from the origin.`;
   return (
     <fieldset class="plan-group">
       <legend>{`Waypoint ${number}`}</legend>
@@ -99,7 +103,9 @@ export function WaypointPlace({ station, draft }: WaypointPlaceProps) {
               label={`Latitude of waypoint ${number}`}
               value={at.latitude_deg}
               quantity={kDegrees}
-              {...around(frame.origin.latitude_deg)}
+              least={-90}
+              most={90}
+              check={(latitude_deg) => check(latitude_deg, at.longitude_deg)}
               step={0.0001}
               decimals={6}
               commit={(latitude_deg) => {
@@ -113,9 +119,11 @@ export function WaypointPlace({ station, draft }: WaypointPlaceProps) {
             </span>
             <NumberField
               label={`Longitude of waypoint ${number}`}
-              value={at.longitude_deg}
+              value={wrapped(at.longitude_deg)}
               quantity={kDegrees}
-              {...around(frame.origin.longitude_deg)}
+              least={-180}
+              most={180}
+              check={(longitude_deg) => check(at.latitude_deg, longitude_deg)}
               step={0.0001}
               decimals={6}
               commit={(longitude_deg) => {

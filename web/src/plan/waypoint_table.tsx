@@ -39,7 +39,7 @@ export function WaypointTable({ planner, draft }: { planner: Planner; draft: Pat
         </tr>
       </thead>
       <tbody>
-        {to_first !== undefined && <LegRow leg={to_first} climb_m={null} />}
+        {to_first !== undefined && <LegRow leg={to_first} climb_m={null} with_arrival />}
         {plan.waypoints.map((_, i) => {
           const leg = legs.find(({ from }) => from === i);
           return (
@@ -55,7 +55,9 @@ export function WaypointTable({ planner, draft }: { planner: Planner; draft: Pat
                     </td>
                   </tr>
                 ))}
-              {leg !== undefined && <LegRow leg={leg} climb_m={climbOf(leg, draft)} />}
+              {leg !== undefined && (
+                <LegRow leg={leg} climb_m={climbOf(leg, draft)} with_arrival={to_first !== undefined} />
+              )}
             </Fragment>
           );
         })}
@@ -163,7 +165,14 @@ function WaypointRow({ planner, draft, index }: WaypointRowProps) {
   );
 }
 
-function LegRow({ leg, climb_m }: { leg: FlownLeg; climb_m: number | null }) {
+interface LegRowProps {
+  leg: FlownLeg;
+  climb_m: number | null;
+  /** It is known how the leader comes to the first waypoint. */
+  with_arrival: boolean;
+}
+
+function LegRow({ leg, climb_m, with_arrival }: LegRowProps) {
   const climb =
     climb_m === null || Math.abs(climb_m) < 0.5
       ? ""
@@ -178,9 +187,11 @@ function LegRow({ leg, climb_m }: { leg: FlownLeg; climb_m: number | null }) {
           <span>{compass(leg.course_rad)}°</span>
           <span>{clock(leg.time_s)}</span>
           <span class="leg-climb">{climb}</span>
-          <span class="leg-eta" title="When it is there, counted from sending">
-            at +{clock(leg.arrival_s)}
-          </span>
+          {with_arrival && (
+            <span class="leg-eta" title="When it is there, counted from sending">
+              at +{clock(leg.arrival_s)}
+            </span>
+          )}
         </span>
       </td>
     </tr>

@@ -6,7 +6,8 @@ import { CommandButton } from "../panels/command_button";
 import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
 import { useShortcuts } from "../shell/shortcuts";
-import { byteSize, clock } from "../units/format";
+import { clock } from "../units/format";
+import { size } from "../units/size";
 import { kLongestMarker, markerProblem, recordingView, sendRecording, type RecordingView } from "./recording";
 import "./recording.css";
 
@@ -29,7 +30,7 @@ export function RecordingPill({ station }: PanelProps) {
   if (view.kind === "none") return null;
   const label =
     view.kind === "recording"
-      ? `Rec ${clock(view.elapsed_s)} ${byteSize(view.status.bytes)}: the flight is recorded. Recording… (K)`
+      ? `Rec ${clock(view.elapsed_s)} ${size(view.status.bytes)}: the flight is recorded. Recording… (K)`
       : `Not recording: ${view.why}. Recording… (K)`;
   return (
     <div class="recording" ref={root}>
@@ -43,7 +44,7 @@ export function RecordingPill({ station }: PanelProps) {
                 <circle cx="5" cy="5" r="4" />
               </svg>
               <span>Rec</span> <span class="recording-time">{clock(view.elapsed_s)}</span>{" "}
-              <span class="recording-size">{byteSize(view.status.bytes)}</span>
+              <span class="recording-size">{size(view.status.bytes)}</span>
             </>
           ) : (
             <>
@@ -93,11 +94,11 @@ function Facts({ status }: { status: RecordingStatus }) {
       <dd title={`${status.folder}/${status.part}`}>{status.recording}</dd>
       <dt>Size</dt>
       <dd>
-        {byteSize(status.bytes)}
+        {size(status.bytes)}
         {status.parts > 1 && ` in ${status.parts} files`}
       </dd>
       <dt>Disk</dt>
-      <dd>{status.free_bytes < 0 ? "not known" : `${byteSize(status.free_bytes)} free`}</dd>
+      <dd>{status.free_bytes < 0 ? "not known" : `${size(status.free_bytes)} free`}</dd>
     </dl>
   );
 }

@@ -54,10 +54,12 @@ async function keepAsking(
 
 function pause(duration_ms: number, abort: AbortSignal): Promise<void> {
   return new Promise((resolve) => {
-    const timer = setTimeout(resolve, duration_ms);
-    abort.addEventListener("abort", () => {
+    const end = () => {
       clearTimeout(timer);
+      abort.removeEventListener("abort", end);
       resolve();
-    });
+    };
+    const timer = setTimeout(end, duration_ms);
+    abort.addEventListener("abort", end);
   });
 }

@@ -13,6 +13,7 @@ export function Help() {
       keys: "?",
       label: "This help",
       group: "Page",
+      over_dialogs: true,
       run: () => {
         help_open.value = !help_open.value;
       },

@@ -12,6 +12,8 @@ export interface Shortcut {
   run: () => void;
   /** A key that is held down goes on doing it. Not so by default: nobody means to acknowledge ten alarms by resting a finger on a key. */
   repeats?: boolean;
+  /** Also while a dialog lies over the page. Others would do what nobody sees. */
+  over_dialogs?: boolean;
 }
 
 /** Those that are in force now. Of two with the same keys, the later one counts: that of the panel opened last. */
@@ -75,11 +77,11 @@ export function listenForShortcuts(): () => void {
   const onKey = (event: KeyboardEvent) => {
     if (event.defaultPrevented || typing(event.target)) return;
     const keys = keysOf(event);
-    // It closes the dialog, unless somebody prevents that.
-    if (keys === "Escape" && document.querySelector("dialog:modal") !== null) return;
     if (presses(event.target, keys)) return;
     const shortcut = shortcuts.peek().findLast((one) => one.keys.toLowerCase() === keys.toLowerCase());
     if (shortcut === undefined) return;
+    // Escape, too: the browser closes the dialog by it.
+    if (shortcut.over_dialogs !== true && document.querySelector("dialog:modal") !== null) return;
     event.preventDefault();
     if (!event.repeat || shortcut.repeats === true) shortcut.run();
   };

@@ -2,6 +2,7 @@ import { kModes } from "../panels/mode_text";
 import { kLinkLost } from "../state/fleet";
 import type { UavRow } from "../state/rows";
 import type { Store } from "../state/store";
+import { inChosenUnits } from "../units/station_text";
 
 /** What a UAV is doing: what its formation does, unless the station can't reach it. `why` is a sentence. */
 export function modeOf(row: UavRow, store: Store): { text: string; why: string } {
@@ -14,6 +15,6 @@ export function modeOf(row: UavRow, store: Store): { text: string; why: string }
   const mode = kModes[status.mode] ?? `Mode ${status.mode}`;
   return {
     text: mode,
-    why: `${name === "" ? `Formation ${row.formation_id}` : name}: ${status.mode_text || mode}`,
+    why: `${name === "" ? `Formation ${row.formation_id}` : name}: ${inChosenUnits(status.mode_text) || mode}`,
   };
 }

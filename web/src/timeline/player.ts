@@ -74,7 +74,7 @@ export class Player {
     const playback = this.store.playback.value;
     if (playback === null) return;
     if (this.store.connection.value.kind !== "open") {
-      const under_way = playback.state === "paused" || playback.state === "playing";
+      const under_way = ["paused", "playing", "ended"].includes(playback.state);
       this.opened_again = false;
       if (under_way) this.left ??= { ...playback, t_s: untracked(() => this.at_s(performance.now())) };
       return;
@@ -105,6 +105,11 @@ export class Player {
     if (this.wanted_s.value !== null) return this.wanted_s.value;
     if (this.left !== null) return this.left.t_s;
     return playback === null ? 0 : timeAt(playback, Math.max(0, now_ms - this.store.playback_ms) / 1000);
+  }
+
+  /** What it shows is where the person wants to be, or was: the bridge has not jumped there yet. */
+  busy(): boolean {
+    return this.wanted_s.value !== null || this.left !== null;
   }
 
   playing(): boolean {

@@ -9,6 +9,7 @@ import { theme } from "../state/settings";
 import { useWidth } from "../table/use_width";
 import { utc } from "../units/format";
 import { size } from "../units/size";
+import { inChosenUnits } from "../units/station_text";
 import { drawTrack, kTrackHeight_px } from "./draw_track";
 import { markName, marksAt } from "./marks";
 import type { Player } from "./player";
@@ -131,6 +132,7 @@ export function Track({ station, disabled }: Props) {
         tabIndex={0}
         aria-label="Time in the recording: arrows 5 seconds, Page Up and Page Down a minute, plus and minus zoom, 0 shows all"
         aria-disabled={disabled}
+        aria-busy={player.busy()}
         aria-valuemin={0}
         aria-valuemax={Math.round(duration_s * 10) / 10}
         aria-valuenow={Math.round(at_s * 10) / 10}
@@ -208,7 +210,7 @@ function MarkLine({ mark }: { mark: Mark }) {
   return (
     <p title={markName(mark)}>
       {mark.kind === "marker" ? <span class="marker-flag">⚑</span> : <Lamp level={mark.severity} />}{" "}
-      <time>{clockTenths(mark.t_s)}</time> {mark.text}
+      <time>{clockTenths(mark.t_s)}</time> {inChosenUnits(mark.text)}
     </p>
   );
 }

@@ -17,6 +17,11 @@ export interface LatLon {
   longitude_deg: number;
 }
 
+/** -180 to 180, however often the map was turned around the world. */
+export function wrapped(longitude_deg: number): number {
+  return ((((longitude_deg + 180) % 360) + 360) % 360) - 180;
+}
+
 export interface Enu {
   east_m: number;
   north_m: number;
