@@ -3,7 +3,6 @@
 #include <cmath>
 #include <lcm/lcm-cpp.hpp>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_state_t.hpp>
@@ -16,6 +15,7 @@
 #include "bus/chunks.h"
 #include "bus/heartbeat.h"
 #include "bus/log_writer.h"
+#include "bus/memory_transport.h"
 #include "monitor/collision_monitor_node.h"
 #include "monitor/scenario_options.h"
 #include "simulator/simulator_node.h"
@@ -105,18 +105,11 @@ VehicleTick ToTick(const simulator::SimulatedVehicle& vehicle, const Listener& l
   return tick;
 }
 
-/// LCM fills tables that all instances share whenever one is made, so one thread at a time.
-std::shared_ptr<lcm::LCM> MemoryTransport() {
-  static std::mutex mutex;
-  const std::lock_guard lock(mutex);
-  return std::make_shared<lcm::LCM>("memq://");
-}
-
 }  // namespace
 
 struct Experiment::Impl {
   Impl(const config::Scenario& scenario, const ExperimentOptions& options)
-      : transport(MemoryTransport()),
+      : transport(bus::MemoryTransport()),
         executor(transport, options.start),
         simulator_bus(transport, "fleet-simulator", executor),
         controller_bus(transport, "formation-controller", executor),

@@ -35,7 +35,8 @@ std::optional<LogIndex> Index(const LogFile& log, const std::function<bool(doubl
   return index;
 }
 
-/// What went wrong with a file, by its name alone: where this machine keeps it is nobody's business at a page.
+/// What went wrong with a file, by its name alone: where this machine keeps it is nobody's business at a
+/// page.
 std::string Reason(const std::exception& error, const fs::path& file) {
   std::string text = error.what();
   const std::string path = file.string();

@@ -1,17 +1,13 @@
 #include "playback/recording_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <fstream>
-#include <set>
-#include <string_view>
 
+#include "recording/card.h"
 #include "recording/index_file.h"
 #include "recording/recording.h"
 
@@ -31,17 +27,6 @@ bool IsLog(const fs::path& file) {
   return stream.read(begin.data(), begin.size()) && begin == kMagic;
 }
 
-/// "flight.lcm" of "flight.lcm.07"; any other name as it is.
-std::string NameOf(const std::string& file_name) {
-  const std::size_t dot = file_name.rfind('.');
-  const bool numbered = dot != std::string::npos && dot + 1 < file_name.size() &&
-                        std::all_of(file_name.begin() + static_cast<std::ptrdiff_t>(dot) + 1, file_name.end(),
-                                    [](unsigned char c) { return c >= '0' && c <= '9'; });
-  return numbered && file_name.substr(0, dot).ends_with(".lcm") ? file_name.substr(0, dot) : file_name;
-}
-
-fs::path CardOf(const fs::path& folder, const std::string& name) { return folder / (name + ".json"); }
-
 bus::Utime WallClock() {
   return std::chrono::duration_cast<std::chrono::microseconds>(
              std::chrono::system_clock::now().time_since_epoch())
@@ -57,22 +42,17 @@ bool JustChanged(bus::Utime changed) {
   return age >= 0 && age < kJustChanged;
 }
 
-/// Whether a flight-recorder holds the card; none when there is no card.
-std::optional<bool> CardIsHeld(const fs::path& card) {
-  const int descriptor = open(card.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-  if (descriptor < 0) return std::nullopt;
-  // One that is just being made is not even tried, lest its maker finds it taken by us.
-  struct stat status {};
-  const bool held = (fstat(descriptor, &status) == 0 && JustChanged(Changed(status))) ||
-                    flock(descriptor, LOCK_SH | LOCK_NB) != 0;
-  close(descriptor);
-  return held;
+bool IsRegular(const fs::path& file) {
+  std::error_code unknown;
+  return fs::is_regular_file(fs::symlink_status(file, unknown));
 }
 
-std::optional<RecordingFiles> Look(const fs::path& folder, const std::string& name) {
+/// As the file system says now; none when all of it is gone.
+std::optional<RecordingFiles> Look(const fs::path& folder, const std::string& name,
+                                   const std::vector<fs::path>& parts) {
   RecordingFiles files;
   files.name = name;
-  for (const fs::path& part : recording::PartsOf(folder / name)) {
+  for (const fs::path& part : parts) {
     struct stat status {};
     if (lstat(part.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
     files.parts.push_back(part);
@@ -80,31 +60,44 @@ std::optional<RecordingFiles> Look(const fs::path& folder, const std::string& na
     files.changed = std::max(files.changed, Changed(status));
   }
   if (files.parts.empty()) return std::nullopt;
-  const auto held = CardIsHeld(CardOf(folder, name));
-  files.recording_now = held ? *held : JustChanged(files.changed);
+  const fs::path card = recording::CardOf(folder / name);
+  if (recording::IsCard(card)) {
+    files.recording_now = recording::IsHeld(card);
+  } else {
+    files.recording_now = JustChanged(files.changed);
+  }
   return files;
+}
+
+bool IsRecording(const std::string& name, const std::vector<fs::path>& parts) {
+  return name.ends_with(".lcm") || (!parts.empty() && IsRegular(parts.front()) && IsLog(parts.front()));
 }
 
 }  // namespace
 
-std::vector<RecordingFiles> FindRecordings(const fs::path& folder, const std::string& only) {
-  std::set<std::string> names;
-  if (!only.empty()) names.insert(only);
+std::vector<RecordingFiles> FindRecordings(const fs::path& folder) {
+  std::vector<fs::path> candidates;
   std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; only.empty() && !error && entry != end;
-       entry.increment(error)) {
-    const std::string file_name = entry->path().filename().string();
-    const std::string name = NameOf(file_name);
-    std::error_code unknown;
-    if (file_name.starts_with('.')) continue;
-    if (!fs::is_regular_file(entry->symlink_status(unknown))) continue;
-    if (name.ends_with(".lcm") || IsLog(entry->path())) names.insert(name);
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path& file = entry->path();
+    const bool is_beside = file.extension() == ".json" || file.extension() == recording::kIndexExtension;
+    if (file.filename().string().starts_with('.') || is_beside || !IsRegular(file)) continue;
+    candidates.push_back(file);
   }
   std::vector<RecordingFiles> found;
-  for (const std::string& name : names) {
-    if (auto files = Look(folder, name)) found.push_back(std::move(*files));
+  for (const auto& [name, parts] : recording::GroupParts(candidates)) {
+    if (!IsRecording(name, parts)) continue;
+    if (auto files = Look(folder, name, parts)) found.push_back(std::move(*files));
   }
   return found;
+}
+
+std::optional<RecordingFiles> FindRecording(const fs::path& folder, const std::string& name, bool trusted) {
+  // None that leads out of the folder, nor a hidden one.
+  const bool plain = !name.empty() && !name.starts_with('.') && fs::path(name).filename() == name;
+  if (!plain && !trusted) return std::nullopt;
+  const auto parts = recording::PartsOf(folder / name);
+  return trusted || IsRecording(name, parts) ? Look(folder, name, parts) : std::nullopt;
 }
 
 std::string RemoveRecording(const fs::path& folder, const RecordingFiles& files) {
@@ -118,7 +111,9 @@ std::string RemoveRecording(const fs::path& folder, const RecordingFiles& files)
     remove(part);
     remove(recording::IndexFileOf(part));
   }
-  if (problem.empty()) remove(CardOf(folder, files.name));
+  const fs::path card = recording::CardOf(folder / files.name);
+  // What else may have that name is not ours.
+  if (problem.empty() && recording::IsCard(card)) remove(card);
   return problem;
 }
 

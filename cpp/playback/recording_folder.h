@@ -23,8 +23,12 @@ struct RecordingFiles {
 };
 
 /// All recordings in a folder: logs and the parts of logs, by name. Never what a symbolic link leads to, nor
-/// hidden files. `only`: "", or the one name that counts. A folder that cannot be read has none.
-std::vector<RecordingFiles> FindRecordings(const std::filesystem::path& folder, const std::string& only);
+/// hidden files. A folder that cannot be read has none.
+std::vector<RecordingFiles> FindRecordings(const std::filesystem::path& folder);
+
+/// The one of that name; `trusted`: whatever it begins with, as the operator has named it.
+std::optional<RecordingFiles> FindRecording(const std::filesystem::path& folder, const std::string& name,
+                                            bool trusted);
 
 /// Removes a recording, its index and its card. Returns why it could not be, "" when all is gone.
 std::string RemoveRecording(const std::filesystem::path& folder, const RecordingFiles& files);

@@ -39,7 +39,12 @@ RecordingLibrary::~RecordingLibrary() {
 }
 
 std::vector<RecordingLibrary::Listed> RecordingLibrary::List() {
-  const auto found = FindRecordings(folder_, only_);
+  std::vector<RecordingFiles> found;
+  if (only_.empty()) {
+    found = FindRecordings(folder_);
+  } else if (auto files = FindRecording(folder_, only_, true)) {
+    found.push_back(std::move(*files));
+  }
   std::vector<Listed> list;
   const std::lock_guard lock(mutex_);
   std::erase_if(entries_, [&](const auto& item) {
@@ -60,11 +65,8 @@ std::vector<RecordingLibrary::Listed> RecordingLibrary::List() {
 }
 
 std::optional<RecordingFiles> RecordingLibrary::Find(const std::string& name) const {
-  // By looking at what is there, so that no name leads out of the folder.
-  for (RecordingFiles& files : FindRecordings(folder_, only_)) {
-    if (files.name == name) return std::move(files);
-  }
-  return std::nullopt;
+  if (!only_.empty() && name != only_) return std::nullopt;
+  return FindRecording(folder_, name, !only_.empty());
 }
 
 std::optional<RecordingLibrary::Opened> RecordingLibrary::Open(const std::string& name) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <lcm/lcm-cpp.hpp>
 #include <memory>
 
 #include "bridge/bus_mirror.h"
 #include "bus/bus.h"
+#include "bus/memory_transport.h"
 #include "bus/simulated_executor.h"
 #include "playback/recorded_flight.h"
 
@@ -33,7 +33,7 @@ class Stage {
   void Feed(const recording::LogEvent& event);
   void FeedFrom(const RecordedFlight& flight, const RecordedFlight::Place& place);
 
-  std::shared_ptr<lcm::LCM> transport_ = std::make_shared<lcm::LCM>("memq://");
+  std::shared_ptr<lcm::LCM> transport_ = bus::MemoryTransport();
   bus::SimulatedExecutor executor_;
   bus::Bus bus_{transport_, "web-bridge", executor_};
   bool prepared_ = false;  ///< what came before has been taken in

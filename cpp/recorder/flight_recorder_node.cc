@@ -87,6 +87,8 @@ FlightRecorderNode::~FlightRecorderNode() {
     Publish();
   }
   logger_.reset();
+  // What lcm-logger wrote last is to be on the card, too.
+  if (recording_) recording_->Look();
   std::error_code ignored;
   fs::remove_all(link_folder_, ignored);
 }

@@ -1,9 +1,6 @@
 #include "recorder/recording_folder.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
 #include <sys/statvfs.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <fstream>
@@ -12,6 +9,8 @@
 #include <system_error>
 
 #include "recorder/recording.h"
+#include "recording/card.h"
+#include "recording/index_file.h"
 
 namespace skein::recorder {
 namespace {
@@ -39,15 +38,6 @@ std::optional<struct statvfs> DiskOf(fs::path folder) {
   return disk;
 }
 
-/// Whether a flight-recorder still writes the recording of this card.
-bool IsLocked(const fs::path& card) {
-  const int fd = open(card.c_str(), O_RDONLY | O_CLOEXEC);
-  if (fd < 0) return true;  // not readable: hands off
-  const bool locked = flock(fd, LOCK_EX | LOCK_NB) != 0;
-  close(fd);
-  return locked;
-}
-
 bool EndsWith(std::string_view text, std::string_view end) {
   return text.size() > end.size() && text.substr(text.size() - end.size()) == end;
 }
@@ -55,16 +45,16 @@ bool EndsWith(std::string_view text, std::string_view end) {
 /// The parts of a card; nothing when it is no card of ours.
 std::vector<Found> PartsOf(const fs::path& card) {
   std::vector<Found> parts;
+  if (!recording::IsCard(card)) return parts;
   try {
     std::ifstream stream(card);
     const auto json = nlohmann::json::parse(stream);
-    if (!json.at("written_by").get<std::string>().starts_with("flight-recorder ")) return {};
-    const std::string recording = card.stem().string();
-    const bool running = IsLocked(card);
+    const std::string name = card.stem().string();
+    const bool running = recording::IsHeld(card);
     for (const auto& item : json.at("parts")) {
       const auto file = item.at("file").get<std::string>();
       Found found{card.parent_path() / file, card, json.at("start_utime").get<bus::Utime>()};
-      while (found.part < 100'000 && PartName(recording, found.part) != file) ++found.part;
+      while (found.part < 100'000 && PartName(name, found.part) != file) ++found.part;
       if (found.part == 100'000) continue;  // a name that no part has, perhaps a path to elsewhere
       std::error_code gone;
       if (!fs::is_regular_file(fs::symlink_status(found.file, gone))) continue;
@@ -113,16 +103,15 @@ Removal MakeRoom(const fs::path& folder, const Room& room) {
   std::int64_t bytes = 0;
   for (const Found& part : parts) bytes += part.bytes;
   const auto too_much = [&] { return bytes > room.quota_bytes; };
-  const auto too_little_free = [&] {
-    return FreeBytes(folder).value_or(room.keep_free_bytes) < room.keep_free_bytes;
-  };
-
   Removal removal;
+  // Looked at once: what is removed may take its time to be free, while others still read it.
+  const std::int64_t free_bytes = FreeBytes(folder).value_or(room.keep_free_bytes);
+  const auto too_little_free = [&] { return free_bytes + removal.bytes < room.keep_free_bytes; };
   for (auto part = parts.begin(); part != parts.end() && (too_much() || too_little_free()); ++part) {
     if (part->running) continue;
     std::error_code kept;
     if (!fs::remove(part->file, kept)) continue;
-    fs::remove(part->file.string() + ".skein-index", kept);
+    fs::remove(recording::IndexFileOf(part->file), kept);
     const bool last =
         std::none_of(part + 1, parts.end(), [&](const Found& other) { return other.card == part->card; });
     if (last) fs::remove(part->card, kept);

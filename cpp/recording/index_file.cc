@@ -125,7 +125,7 @@ bool WriteAll(int descriptor, std::string_view bytes) {
 
 std::filesystem::path IndexFileOf(const std::filesystem::path& log) {
   std::filesystem::path file = log;
-  return file += ".skein-index";
+  return file += kIndexExtension;
 }
 
 std::optional<LogIndex> LoadIndex(const std::filesystem::path& log) {

@@ -8,6 +8,8 @@
 
 namespace skein::recording {
 
+inline constexpr const char* kIndexExtension = ".skein-index";
+
 /// "flight.lcm.skein-index" beside "flight.lcm".
 std::filesystem::path IndexFileOf(const std::filesystem::path& log);
 

@@ -19,35 +19,50 @@ std::optional<int> PartNumber(const std::string& name) {
   int number = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
   const bool is_number = error == std::errc() && end == digits.data() + digits.size();
-  if (!is_number || digits.size() < 2 || number < 1) return std::nullopt;
+  // One digit alone is what `lcm-logger --rotate` gives, where 0 is the newest.
+  if (!is_number || digits.size() < 2 || number < 0) return std::nullopt;
   return number;
-}
-
-/// The parts behind the first one, by number.
-std::map<int, fs::path> LaterParts(const fs::path& file) {
-  std::map<int, fs::path> parts;
-  if (!file.filename().string().ends_with(".lcm")) return parts;
-  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    const auto number = PartNumber(name);
-    if (number && name.substr(0, name.rfind('.')) == file.filename()) {
-      parts[*number] = file.parent_path() / name;
-    }
-  }
-  return parts;
 }
 
 }  // namespace
 
+std::map<std::string, std::vector<fs::path>> GroupParts(const std::vector<fs::path>& files) {
+  std::map<std::string, std::map<int, fs::path>> numbered;
+  std::map<std::string, std::vector<fs::path>> recordings;
+  for (const fs::path& file : files) {
+    const std::string name = file.filename().string();
+    if (const auto number = PartNumber(name)) {
+      numbered[name.substr(0, name.rfind('.'))].emplace(*number, file);
+    } else {
+      recordings[name] = {file};
+    }
+  }
+  for (auto& [name, parts] : numbered) {
+    auto& recording = recordings[name];
+    if (const auto zero = parts.find(0); zero != parts.end() && !recording.empty()) {
+      recordings[zero->second.filename().string()] = {zero->second};
+      parts.erase(zero);
+    }
+    for (const auto& [number, part] : parts) recording.push_back(part);
+  }
+  return recordings;
+}
+
 std::vector<fs::path> PartsOf(const fs::path& file) {
-  std::vector<fs::path> parts;
-  const auto later = LaterParts(file);
+  std::vector<fs::path> siblings;
+  const std::string name = file.filename().string();
   std::error_code error;
-  if (later.empty() || fs::exists(file, error)) parts.push_back(file);
-  for (const auto& [number, part] : later) parts.push_back(part);
-  return parts;
+  if (fs::exists(file, error) || !name.ends_with(".lcm")) siblings.push_back(file);
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  for (fs::directory_iterator entry(folder, error), end; name.ends_with(".lcm") && !error && entry != end;
+       entry.increment(error)) {
+    const std::string other = entry->path().filename().string();
+    if (other.starts_with(name + '.') && PartNumber(other)) siblings.push_back(file.parent_path() / other);
+  }
+  auto recordings = GroupParts(siblings);
+  // A part that is named alone is asked for as it is; a file that is missing is told by whoever opens it.
+  if (PartNumber(name) || siblings.empty()) return {file};
+  return std::move(recordings[name]);
 }
 
 Recording::Recording(const fs::path& file) : file_(file) {

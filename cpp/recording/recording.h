@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,9 +12,14 @@
 
 namespace skein::recording {
 
-/// The files of a recording in their order: NAME.lcm, NAME.lcm.01, NAME.lcm.02, ... as flight-recorder splits
-/// it, those that are there. A file of any other name, or one part named alone, is all of its recording.
+/// The files of a recording in their order, those that are there: NAME.lcm, NAME.lcm.01, NAME.lcm.02, ... as
+/// flight-recorder splits it; without NAME.lcm itself, NAME.lcm.00 is the first, as `lcm-logger -i
+/// --split-mb` has it. A file of any other name, or one part named alone, is all of its recording.
 std::vector<std::filesystem::path> PartsOf(const std::filesystem::path& file);
+
+/// Files of one folder as recordings: by the name of each ("flight.lcm") its parts in their order.
+std::map<std::string, std::vector<std::filesystem::path>> GroupParts(
+    const std::vector<std::filesystem::path>& files);
 
 /// A flight as it was recorded, in one file or several.
 class Recording {

@@ -54,6 +54,29 @@ TEST_F(RecordingTest, JoinsItsPartsInTheirOrder) {
   EXPECT_TRUE(reader.damage().empty());
 }
 
+TEST_F(RecordingTest, JoinsWhatLcmLoggerItselfHasSplit) {
+  for (const char* part : {"00", "01"})
+    Write(std::string("flight.lcm.") + part, EventBytes(part[1] - '0', 1, "C", "a"));
+  const Recording recording(folder_ / "flight.lcm");
+  EXPECT_TRUE(recording.problems().empty());
+  RecordingReader reader(recording);
+  EXPECT_EQ(Numbers(reader), (std::vector<std::int64_t>{0, 1}));
+  // Beside a file of the very name it is one by itself.
+  Write("flight.lcm", EventBytes(7, 1, "C", "a"));
+  EXPECT_EQ(PartsOf(folder_ / "flight.lcm").size(), 2U);
+  EXPECT_EQ(PartsOf(folder_ / "flight.lcm.00").size(), 1U);
+}
+
+TEST_F(RecordingTest, GroupsTheFilesOfAFolder) {
+  const auto groups =
+      GroupParts({"a.lcm.01", "b.lcm", "a.lcm.00", "b.lcm.00", "b.lcm.100", "b.lcm.09", "c.lcm.0"});
+  ASSERT_EQ(groups.size(), 4U);
+  EXPECT_EQ(groups.at("a.lcm"), (std::vector<fs::path>{"a.lcm.00", "a.lcm.01"}));
+  EXPECT_EQ(groups.at("b.lcm"), (std::vector<fs::path>{"b.lcm", "b.lcm.09", "b.lcm.100"}));
+  EXPECT_EQ(groups.at("b.lcm.00"), std::vector<fs::path>{"b.lcm.00"});
+  EXPECT_EQ(groups.at("c.lcm.0"), std::vector<fs::path>{"c.lcm.0"});
+}
+
 TEST_F(RecordingTest, OpensOnePartAlone) {
   Write("flight.lcm", EventBytes(0, 1, "C", "a"));
   const fs::path part = Write("flight.lcm.01", EventBytes(1, 1, "C", "a"));
