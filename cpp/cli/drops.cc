@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <functional>
 #include <set>
@@ -292,8 +293,7 @@ class DropRun {
       try {
         Send(id, true, true, nullptr, at, 0);
       } catch (const Failure& failure) {
-        out_ << Callsign(station_.picture(), id) << ": its link could not be restored: " << failure.what()
-             << '\n';
+        Problem(Callsign(station_.picture(), id) + ": its link could not be restored: " + failure.what());
       }
     }
   }
@@ -351,6 +351,9 @@ class DropRun {
     if (!options_.json)
       out_ << fmt::format("{:9.2f} s  {}\n", bus::ToSeconds(utime - scenario_start_), text) << std::flush;
   }
+
+  /// Not on standard output, which may be the report as JSON.
+  static void Problem(const std::string& text) { fmt::print(stderr, "skein: {}\n", text); }
 
   void Report() {
     const DropReport report{ledger_, options_.limit_s, Now(), scenario_start_,

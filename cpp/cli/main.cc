@@ -6,29 +6,19 @@
 #include "bus/transport.h"
 #include "cli/command_line.h"
 #include "cli/log/log_source.h"
+#include "cli/run_for.h"
 #include "config/scenario.h"
 
 namespace {
 
 using namespace skein;  // NOLINT: the main file of a program
 
-/// Runs the executor for a time. Returns false when it ended before, by SIGINT or SIGTERM.
-bool RunFor(bus::LiveExecutor& executor, bus::Utime duration) {
-  bool over = false;
-  executor.At(executor.Now() + duration, [&] {
-    over = true;
-    executor.Stop();
-  });
-  executor.Run();
-  return over;
-}
-
 void Run(const cli::CommandLine& command_line) {
   const auto transport =
       bus::MakeTransport(command_line.lcm_url().empty() ? bus::DefaultUrl() : command_line.lcm_url());
   bus::LiveExecutor executor(transport.lcm);
   bus::Bus bus(transport.lcm, "skein", executor);
-  cli::Station station(bus, [&](bus::Utime duration) { return RunFor(executor, duration); });
+  cli::Station station(bus, [&](bus::Utime duration) { return cli::RunFor(executor, duration); });
   command_line.command()(station, std::cout);
 }
 
