@@ -1,6 +1,7 @@
 #include "config/json_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -34,10 +35,13 @@ std::string ReadAll(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(status)) throw ConfigError(name + ": is a folder, not a scenario file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw ConfigError(name + ": cannot be read: " + std::strerror(errno));
-  std::string text(kMaxFileBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  std::string text;
+  std::array<char, 65'536> block{};
+  do {
+    stream.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream && text.size() <= kMaxFileBytes);
   if (stream.bad()) throw ConfigError(name + ": cannot be read");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   if (text.size() > kMaxFileBytes) throw ConfigError(name + ": is larger than 32 MiB");
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw ConfigError(name + ": is empty");
   return text;

@@ -18,10 +18,11 @@ namespace {
 // data; all of it big endian.
 constexpr std::array<unsigned char, 4> kMagic = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::uint64_t kHeaderBytes = 28;
-constexpr std::uint32_t kMaxChannelBytes = 999;     // as LCM's own reader
-constexpr std::uint32_t kMaxDataBytes = 1U << 28;   // LCM carries no longer messages
-constexpr std::uint64_t kWindowBytes = 256 * 1024;  // read at once
-constexpr std::uint64_t kProbeBytes = 64ULL << 20;  // without an event in it a file is no log
+constexpr std::uint32_t kMaxChannelBytes = 999;         // as LCM's own reader
+constexpr std::uint32_t kMaxDataBytes = 1U << 28;       // LCM carries no longer messages
+constexpr std::uint64_t kWindowBytes = 256 * 1024;      // read at once
+constexpr std::uint64_t kFirstWindowBytes = 16 * 1024;  // who wants one message alone has read enough
+constexpr std::uint64_t kProbeBytes = 64ULL << 20;      // without an event in it a file is no log
 constexpr std::uint64_t kMaxUnconfirmedBytes = 16ULL << 20;
 constexpr std::size_t kMaxListedDamage = 1000;
 
@@ -87,10 +88,11 @@ LogReader::LogReader(const LogFile& log, std::uint64_t offset)
 std::span<const std::byte> LogReader::Window(std::uint64_t offset, std::uint64_t size) {
   if (offset < window_offset_ || offset + size > window_offset_ + window_bytes_) {
     const std::uint64_t left = offset < log_.bytes_ ? log_.bytes_ - offset : 0;
-    const std::uint64_t wanted = std::min(std::max(size, kWindowBytes), left);
+    const std::uint64_t usual = window_.empty() ? kFirstWindowBytes : kWindowBytes;
+    const std::uint64_t wanted = std::min(std::max(size, usual), left);
     // A long event does not keep its memory once it is past.
     if (window_.size() < wanted || window_.size() > 4 * kMaxUnconfirmedBytes) {
-      window_ = std::vector<std::byte>(std::max(wanted, kWindowBytes));
+      window_ = std::vector<std::byte>(std::max(wanted, usual));
     }
     window_offset_ = offset;
     window_bytes_ = 0;
