@@ -79,7 +79,7 @@ void MeasureLinks(const Summary& summary, Measurement& measured) {
       ++found;
       detections_s.push_back(*drop.found_s - drop.cut_s);
       if (detections_s.back() > kDetectionLimitS) ++late;
-    } else if (lasted_s >= kDetectionLimitS) {
+    } else if (lasted_s >= kDetectionLimitS && !drop.told_lost_before) {
       ++missed;
     }
     if (drop.restored_s && WasFound(drop)) {

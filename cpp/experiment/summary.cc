@@ -104,13 +104,18 @@ void SummaryBuilder::WatchLink(const VehicleTick& vehicle, double t_s) {
       drop.uplink = vehicle.uplink_cut;
       drop.downlink = vehicle.downlink_cut;
       drop.cut_s = t_s;
+      drop.told_lost_before = vehicle.link() == Link::kLost;
       summary_.drops.push_back(drop);
       return;
     }
     if (last == summary_.drops.rend()) return;
   }
   if (!last->restored_s && !cut) last->restored_s = t_s;
-  if (!last->found_s && vehicle.link() == Link::kLost) last->found_s = t_s;
+  if (vehicle.link() != Link::kLost) {
+    last->told_lost_before = false;
+  } else if (!last->told_lost_before && !last->found_s) {
+    last->found_s = t_s;
+  }
   if (last->found_s && !last->seen_up_s && vehicle.link() == Link::kUp) last->seen_up_s = t_s;
   if (last->seen_up_s && vehicle.slot) {
     last->in_slot_s = InSlot(*vehicle.slot) ? std::optional(last->in_slot_s.value_or(t_s)) : std::nullopt;

@@ -53,6 +53,7 @@ struct LinkDrop {
   bool uplink = false;
   bool downlink = false;
   double cut_s = 0;
+  bool told_lost_before = false;     ///< and ever since: that is of an earlier one
   std::optional<double> found_s;     ///< the monitor tells it lost
   std::optional<double> restored_s;  ///< in truth
   std::optional<double> seen_up_s;   ///< the monitor tells it up again

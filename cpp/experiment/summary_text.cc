@@ -93,8 +93,9 @@ class TextBuilder {
                                      : drop.uplink                ? "upwards"
                                                                   : "downwards",
                                      drop.cut_s);
-      text += drop.found_s ? fmt::format(", found lost {:.2f} s later", *drop.found_s - drop.cut_s)
-                           : ", not found lost";
+      text += drop.found_s            ? fmt::format(", found lost {:.2f} s later", *drop.found_s - drop.cut_s)
+              : drop.told_lost_before ? ", while it was still told lost"
+                                      : ", not found lost";
       if (drop.restored_s) text += fmt::format("; restored at {:.2f} s", *drop.restored_s);
       if (drop.seen_up_s && drop.restored_s)
         text += fmt::format(", seen up {:.2f} s later", *drop.seen_up_s - *drop.restored_s);

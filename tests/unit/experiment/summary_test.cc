@@ -118,6 +118,26 @@ TEST(Summary, TellsDropsApartThatFollowOneAnother) {
   EXPECT_FALSE(summary.drops[1].seen_up_s);
 }
 
+TEST(Summary, DoesNotTakeALossThatIsStillToldForTheNextCut) {
+  const auto fly = [](double up_from_s) {
+    return Fly(400, [up_from_s](Tick& tick) {
+      tick.vehicles[1].downlink_cut = (tick.t_s >= 2 && tick.t_s < 8) || (tick.t_s >= 9 && tick.t_s < 17);
+      const bool seen_up = tick.t_s >= up_from_s && tick.t_s < 14;
+      tick.vehicles[1].downlink = tick.t_s >= 6 && !seen_up ? Link::kLost : Link::kUp;
+    });
+  };
+  // Still told lost when it is cut again, then seen up, then found.
+  const Summary found = fly(10);
+  ASSERT_EQ(found.drops.size(), 2u);
+  EXPECT_DOUBLE_EQ(*found.drops[0].found_s, 6);
+  EXPECT_DOUBLE_EQ(*found.drops[1].found_s, 14);
+  // Told lost all the time: nothing was found of the second one.
+  const Summary not_found = fly(14);
+  EXPECT_FALSE(not_found.drops[1].found_s);
+  EXPECT_NE(ToText(not_found).find("UAV2 cut downwards at 9.00 s, while it was still told lost"),
+            std::string::npos);
+}
+
 TEST(Summary, DoesNotCountErrorsAfterACutAsNotSettled) {
   const Summary summary = Fly(200, [](Tick& tick) {
     tick.vehicles[1].downlink_cut = tick.t_s >= 5;
