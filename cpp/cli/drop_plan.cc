@@ -1,5 +1,7 @@
 #include "cli/drop_plan.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -62,7 +64,10 @@ std::vector<Drop> ReadCsv(const std::filesystem::path& file) {
   std::vector<Drop> drops;
   for (int number = 2; std::getline(stream, line); ++number) {
     const auto cells = Cells(line);
-    if (cells.empty() || line.front() == '#') continue;
+    // Of an empty line of DOS, "\r" is left.
+    if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); }))
+      continue;
+    if (cells.front().starts_with('#')) continue;
     const std::string place = file.string() + " line " + std::to_string(number);
     if (cells.size() > heading.size()) throw config::ConfigError(place + ": has more cells than the heading");
     nlohmann::json row = nlohmann::json::object();
@@ -89,6 +94,13 @@ std::string Direction(const Drop& drop) {
   return drop.uplink && drop.downlink ? "both" : drop.uplink ? "up" : "down";
 }
 
+std::string Words(const Drop& drop) {
+  const std::string direction = Direction(drop);
+  const char* way = direction == "both" ? "both ways" : direction == "up" ? "upwards" : "downwards";
+  if (drop.is_cut()) return fmt::format("cut {}", way);
+  return fmt::format("made worse {} ({:g}% loss, {:g} s delay)", way, 100 * drop.loss, drop.delay_s);
+}
+
 std::vector<Drop> ReadDrops(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error)) {
@@ -103,6 +115,15 @@ std::vector<Drop> ReadDrops(const std::filesystem::path& file) {
   if (drops.empty()) throw config::ConfigError(file.string() + ": lists no drops");
   std::stable_sort(drops.begin(), drops.end(), [](const Drop& a, const Drop& b) { return a.at_s < b.at_s; });
   return drops;
+}
+
+std::string DropsAsCsv(const std::vector<Drop>& drops) {
+  std::string text = "at_s,uav,direction,for_s,loss,delay_s\n";
+  for (const Drop& drop : drops) {
+    text += fmt::format("{},{},{},{},{},{}\n", drop.at_s, drop.vehicle, Direction(drop), drop.for_s,
+                        drop.loss, drop.delay_s);
+  }
+  return text;
 }
 
 RandomPlan::RandomPlan(const RandomDrops& options, std::vector<int> vehicles)

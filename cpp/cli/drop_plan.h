@@ -25,11 +25,16 @@ struct Drop {
 /// "up", "down", "both". Throws config::ConfigError for another, with `place`.
 void SetDirection(Drop& drop, const std::string& direction, const std::string& place);
 std::string Direction(const Drop& drop);
+/// "cut upwards", "made worse both ways (20% loss, 0.3 s delay)".
+std::string Words(const Drop& drop);
 
 /// Drops from a file, in order of time: CSV with a heading line or JSON, an array of objects, both with at_s,
 /// uav, for_s and, where wanted, direction, loss and delay_s. With a delay and no loss given, loss is 0.
 /// Throws config::ConfigError with the place of what is wrong.
 std::vector<Drop> ReadDrops(const std::filesystem::path& file);
+
+/// As ReadDrops reads them again, with every column.
+std::string DropsAsCsv(const std::vector<Drop>& drops);
 
 struct RandomDrops {
   std::uint64_t seed = 1;

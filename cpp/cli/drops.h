@@ -18,6 +18,7 @@ struct DropsOptions {
   double delay_s = 0;
 
   std::string file;       ///< a list instead
+  bool check = false;     ///< only read it and write it down anew
   bool from_now = false;  ///< its times count from now, not from the scenario's start
   double repeat_s = 0;    ///< the plan begins again every so often
 

@@ -41,6 +41,11 @@ void CommandLine::AddDrops() {
       ->add_flag("--from-now", drops_.from_now,
                  "Times of the list count from now (default: from the scenario's start)")
       ->needs(list);
+  drops
+      ->add_flag(
+          "--check", drops_.check,
+          "Only see whether the list can be read, and write it as CSV in order of time; needs no fleet")
+      ->needs(list);
   drops->add_option("--repeat", drops_.repeat_s, "Begin again every so many seconds, until Ctrl-C")
       ->check(CLI::PositiveNumber)
       ->excludes(random);
@@ -92,6 +97,13 @@ void CommandLine::AddDrops() {
       throw CLI::ValidationError("--direction", "any goes with --random");
     }
     drops_.random_drops.direction = drops_.direction;
+    if (drops_.check) {
+      offline_command_ = [this](std::ostream& out) {
+        out << DropsAsCsv(ReadDrops(drops_.file));
+        return 0;
+      };
+      return;
+    }
     command_ = [this](Station& station, std::ostream& out) { RunDrops(station, drops_, out); };
   });
 }

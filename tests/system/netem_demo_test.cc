@@ -50,6 +50,19 @@ TEST_F(NetemDemo, FindsEachDirectionOfARealWireThatIsCut) {
   EXPECT_EQ(summary["false"], 0) << ended.output;
 }
 
+TEST_F(NetemDemo, RefusesAListThatItCannotDoBeforeAnythingIsStarted) {
+  const Finished lossy = Run("1,all,both,11,,\n18,all,both,4,0.1,\n", {"--cuts-only"});
+  EXPECT_EQ(lossy.exit_code, 2);
+  EXPECT_NE(lossy.output.find("--cuts-only only cuts"), std::string::npos) << lossy.output;
+  EXPECT_NE(lossy.output.find("the drop at 18 s"), std::string::npos) << lossy.output;
+  const Finished single = Run("1,all,both,11,,\n18,UAV3,both,4,,\n", {});
+  EXPECT_EQ(single.exit_code, 2);
+  EXPECT_NE(single.output.find("uav must be all"), std::string::npos) << single.output;
+  const Finished faulty = Run("1,all,both,,,\n", {"--uml"});
+  EXPECT_EQ(faulty.exit_code, 2);
+  EXPECT_NE(faulty.output.find("line 2: the key \"for_s\" is missing"), std::string::npos) << faulty.output;
+}
+
 // The User-Mode Linux where this kernel has no netem is slow, hence the limit.
 TEST_F(NetemDemo, TellsAWireThatIsCutFromOneThatIsBadWithNetem) {
   const std::string drops = "1,all,down,16,,\n32,all,both,4,0.1,0.2\n";

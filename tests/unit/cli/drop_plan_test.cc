@@ -67,6 +67,13 @@ TEST(DropList, IsReadFromJson) {
   ExpectTheThree(ReadDrops(file.path()));
 }
 
+TEST(DropList, MayHaveEmptyLinesOfAnySystem) {
+  const DropFile file("c.csv", "at_s,uav,for_s\r\n1,2,3\r\n\r\n,,\r\n \t\r\n4,5,6\r\n\r\n");
+  const auto drops = ReadDrops(file.path());
+  ASSERT_EQ(drops.size(), 2u);
+  EXPECT_EQ(drops[1].for_s, 6);
+}
+
 TEST(DropList, IsRefusedWithThePlaceOfWhatIsWrong) {
   EXPECT_EQ(Refusal("b.csv", "at_s,uav,for_s\n1,2,3\n4,5,soon\n"),
             "b.csv line 3: /for_s: must be a number, is a text");
