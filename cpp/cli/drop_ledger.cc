@@ -11,11 +11,12 @@ std::optional<double> DropRecord::detection_s() const {
 
 std::string DropRecord::Outcome(double limit_s, bus::Utime now) const {
   if (overlapped) return "overlapped";
-  if (found) return detection_s() <= limit_s || !drop.is_cut() ? "found" : "late";
+  const bool is_short = bus::ToSeconds(end - start) < limit_s;
+  if (found) return detection_s() <= limit_s || !drop.is_cut() ? "found" : is_short ? "short" : "late";
   if (now < end + DropLedger::kGrace) return "pending";
   if (!drop.is_cut()) return "degraded";
   if (!judged) return "not judged";
-  return bus::ToSeconds(end - start) < limit_s ? "short" : "missed";
+  return is_short ? "short" : "missed";
 }
 
 bool DropLedger::Covers(const DropRecord& record, bus::Utime utime) {

@@ -23,8 +23,8 @@ struct DropRecord {
       false;  ///< the UAV's link was not up when it began, or was cut once more before it was seen up
   bool judged = true;  ///< false: an uplink over which nobody sends commands
 
-  /// "found", "late", "missed", "short" (over before the limit, not found), "degraded" (not cut, not found),
-  /// "overlapped" or "not judged"; "pending" while it can still be found.
+  /// "found", "late", "missed", "short" (over before the limit, not found by then), "degraded" (not cut, not
+  /// found), "overlapped" or "not judged"; "pending" while it can still be found.
   std::string Outcome(double limit_s, bus::Utime now) const;
   std::optional<double> detection_s() const;
 };

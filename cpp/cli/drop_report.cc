@@ -17,11 +17,12 @@ std::map<std::string, int> CountOutcomes(const DropReport& report) {
   return counts;
 }
 
-/// Of the cuts that were found, the least first.
+/// Of the cuts that count as found, the least first.
 std::vector<double> Detections(const DropReport& report) {
   std::vector<double> detections_s;
   for (const DropRecord& record : report.ledger.records()) {
-    if (record.found && !record.overlapped && record.drop.is_cut())
+    const std::string outcome = record.Outcome(report.limit_s, report.now);
+    if (record.drop.is_cut() && (outcome == "found" || outcome == "late"))
       detections_s.push_back(*record.detection_s());
   }
   std::sort(detections_s.begin(), detections_s.end());
@@ -53,7 +54,7 @@ std::string DropSummary(const DropReport& report) {
   text += fmt::format(", {} of them after more than {:g} s; {} missed; {} false\n", counts["late"],
                       report.limit_s, counts["missed"], report.ledger.false_losses().size());
   const std::map<std::string, std::string> others{
-      {"short", fmt::format("over before {:g} s and not found", report.limit_s)},
+      {"short", fmt::format("over before {:g} s and not found by then", report.limit_s)},
       {"degraded", "not cut but worse, and not found lost"},
       {"overlapped", "overlapped with another one, not counted"},
       {"not judged", "of an uplink over which no commands are sent, so that nothing can be found"},

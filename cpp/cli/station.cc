@@ -11,7 +11,6 @@ namespace {
 namespace channel = bus::channel;
 
 constexpr bus::Utime kLook = 20'000;  // how often a wait looks at what has come
-constexpr bus::Utime kRepeat = bus::kSecond;
 constexpr int kTries = 3;
 constexpr bus::Utime kRosterLimit = 3 * bus::kSecond;
 
@@ -64,7 +63,7 @@ const fleet_roster_t& Station::Roster() {
   return *picture_.roster;
 }
 
-std::string Station::WaitForAnswer(const std::string& channel, std::int64_t request_id,
+bus::Answer Station::WaitForAnswer(const std::string& channel, std::int64_t request_id,
                                    const std::string& who) {
   const auto answered = [this] { return answer_.has_value(); };
   for (int tries = 1; !WaitUntil(answered, kRepeat) && tries < kTries; ++tries) outbox_.Repeat(request_id);
@@ -72,8 +71,7 @@ std::string Station::WaitForAnswer(const std::string& channel, std::int64_t requ
     outbox_.Forget(request_id);
     throw Failure("nobody answered " + channel + " for 3 s: is " + who + " running, and on this LCM URL?");
   }
-  if (!answer_->accepted) throw Failure("refused: " + answer_->reason);
-  return answer_->reason;
+  return *answer_;
 }
 
 }  // namespace skein::cli

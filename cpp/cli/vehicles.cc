@@ -10,6 +10,7 @@ namespace {
 
 // Enough to see what callsigns look like.
 constexpr std::size_t kCallsignsListed = 12;
+constexpr std::size_t kCallsignsInLine = 5;
 
 std::optional<int> ReadId(const std::string& text) {
   int id = 0;
@@ -54,6 +55,13 @@ std::string Callsign(const Picture& picture, int vehicle_id) {
     }
   }
   return std::to_string(vehicle_id);
+}
+
+std::string Callsigns(const Picture& picture, const std::vector<int>& vehicle_ids) {
+  if (vehicle_ids.size() > kCallsignsInLine) return std::to_string(vehicle_ids.size()) + " UAVs";
+  std::string names;
+  for (const int id : vehicle_ids) names += (names.empty() ? "" : ", ") + Callsign(picture, id);
+  return names;
 }
 
 }  // namespace skein::cli

@@ -14,4 +14,7 @@ std::vector<int> FindVehicles(Station& station, const std::vector<std::string>& 
 /// "UAV3", or "3" when the roster does not know it.
 std::string Callsign(const Picture& picture, int vehicle_id);
 
+/// "UAV1, UAV2"; of many only how many there are.
+std::string Callsigns(const Picture& picture, const std::vector<int>& vehicle_ids);
+
 }  // namespace skein::cli

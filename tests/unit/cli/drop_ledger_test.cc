@@ -64,6 +64,14 @@ TEST_F(DropLedgerTest, CountsAShortCutThatIsFoundAllTheSame) {
   EXPECT_EQ(Outcome(0, 10), "found");
 }
 
+TEST_F(DropLedgerTest, HoldsNothingAgainstTheMonitorOfACutThatWasOverBefore) {
+  ledger.Begin(1, 1, Cut(4.5), At(0), true);
+  const auto news = ledger.Hear(1, Link::kLost, At(5.3));
+  EXPECT_NE(news.found, nullptr);
+  EXPECT_FALSE(news.is_false);
+  EXPECT_EQ(Outcome(0, 10), "short");
+}
+
 TEST_F(DropLedgerTest, CountsOfTwoThatOverlapTheFirstOne) {
   ledger.Begin(1, 1, Cut(12), At(0), true);
   ledger.Begin(2, 1, Cut(20), At(3), true);
