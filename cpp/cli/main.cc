@@ -22,6 +22,11 @@ void Run(const cli::CommandLine& command_line) {
   command_line.command()(station, std::cout);
 }
 
+/// On a full disk what was asked for is not there.
+void Flush() {
+  if (!std::cout.flush()) throw std::runtime_error("standard output: could not be written wholly");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -36,11 +41,12 @@ int main(int argc, char** argv) {
     if (command_line.offline_command()) {
       cli::CatchInterrupts();
       const int exit_code = command_line.offline_command()(std::cout);
-      if (!std::cout.flush()) throw std::runtime_error("standard output: could not be written wholly");
+      Flush();
       return exit_code;
     }
     bus::BlockEndSignals();
     Run(command_line);
+    Flush();
     return bus::kExitGood;
   } catch (const config::ConfigError& error) {
     std::cerr << "skein: " << error.what() << '\n';

@@ -141,6 +141,13 @@ TEST(SkeinSpy, ShowsAFlightChannelByChannelAndFieldByField) {
   EXPECT_NE(beat.output.find("undecodable"), std::string::npos) << beat.output;
 }
 
+TEST(SkeinSpy, FailsWhenItsOutputCannotBeWritten) {
+  const Finished ended = RunToEnd(
+      {"bash", "-c", Program("skein") + " --lcm-url " + FreshLcmUrl() + " scenario list >/dev/full"});
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.output.find("could not be written"), std::string::npos) << ended.output;
+}
+
 TEST(SkeinSpy, SaysWhenNothingIsHeard) {
   const Finished spy =
       RunToEnd({Program("skein"), "--lcm-url", FreshLcmUrl(), "spy", "--for", "0.5", "--once"});
