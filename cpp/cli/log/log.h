@@ -70,7 +70,8 @@ struct LogDiffOptions {
   int flight = 1;
   bool json = false;
 };
-/// Whether the flights agree: no UAV is farther apart than the tolerance at any time of the scenario.
+/// Whether the flights agree: every UAV was heard in both, and was never farther apart than the tolerance at
+/// a time of the scenario at which it was.
 bool CompareLogs(const LogDiffOptions& options, std::ostream& out);
 
 struct LogCutOptions {

@@ -1,107 +1,44 @@
 #include <spdlog/fmt/fmt.h>
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <deque>
-#include <functional>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <skein/fleet_state_t.hpp>
 #include <vector>
 
-#include "bus/channels.h"
-#include "cli/log/flight_picker.h"
+#include "cli/log/flight_states.h"
 #include "cli/log/log.h"
-#include "cli/log/log_source.h"
 #include "cli/text_table.h"
 #include "config/scenario.h"
-#include "recording/log_listener.h"
 
 namespace skein::cli {
 namespace {
 
-/// Where a UAV was at a time of its scenario.
-struct Sample {
-  double t_s = 0;
-  Eigen::Vector3d place{0, 0, 0};  ///< ENU [m]
-};
-
 // A link that was silent for longer than this leaves a gap, across which nothing is compared.
 constexpr double kLongestGap_s = 1;
 constexpr std::size_t kMostWaiting = 2'000;
-
-/// The states of one flight, read bit by bit.
-class States {
- public:
-  States(const std::string& file, int flight);
-  States(const States&) = delete;
-  States& operator=(const States&) = delete;
-
-  /// Reads on by so much as there is, to the next state at least; `use` gets each of them. False at the end.
-  bool ReadOn(const std::function<void(int id, const Sample& sample)>& use);
-
-  /// The time of the latest state that was read.
-  double now_s() const { return now_s_; }
-  double share_read() const {
-    return static_cast<double>(reader_.bytes_read()) / static_cast<double>(source_.recording().bytes());
-  }
-  LogSource& source() { return source_; }
-  const LogSource& source() const { return source_; }
-  const FlightPicker& picker() const { return picker_; }
-  const std::map<int, std::string>& callsigns() const { return callsigns_; }
-
- private:
-  LogSource source_;
-  FlightPicker picker_;
-  recording::RecordingReader reader_;
-  recording::LogListener listener_;
-  std::map<int, std::string> callsigns_;
-  std::vector<std::pair<int, Sample>> read_;
-  double now_s_ = -std::numeric_limits<double>::infinity();
-};
-
-States::States(const std::string& file, int flight)
-    : source_(file), picker_(flight), reader_(source_.recording()) {
-  listener_.HearWhole<fleet_roster_t>(bus::channel::kFleetRoster, [this](const fleet_roster_t& roster) {
-    if (!picker_.Take(roster)) return;
-    for (const vehicle_info_t& vehicle : roster.vehicles) callsigns_[vehicle.id] = vehicle.callsign;
-  });
-  listener_.Hear<fleet_state_t>(bus::channel::kFleetState, [this](const fleet_state_t& state) {
-    if (!picker_.Holds(state.session_id)) return;
-    now_s_ = std::max(now_s_, picker_.TimeOf(state.utime));
-    for (const vehicle_state_t& vehicle : state.vehicles) {
-      read_.push_back(
-          {vehicle.id, {picker_.TimeOf(vehicle.utime), {vehicle.east_m, vehicle.north_m, vehicle.up_m}}});
-    }
-  });
-}
-
-bool States::ReadOn(const std::function<void(int id, const Sample& sample)>& use) {
-  while (read_.empty()) {
-    const auto event = reader_.Next();
-    if (!event) {
-      source_.Note(reader_);
-      return false;
-    }
-    listener_.Take(*event);
-  }
-  for (const auto& [id, sample] : read_) use(id, sample);
-  read_.clear();
-  return true;
-}
+constexpr std::size_t kMostListed = 5;
 
 struct VehicleDiff {
   std::deque<Sample> samples[2];  ///< of either flight, those that still wait for the other one's
   std::int64_t seen[2] = {0, 0};
+  double latest_s[2] = {0, 0};
+  double heard_s[2] = {0, 0};  ///< for how long, without what was silent
   std::int64_t compared = 0;
   double first_s = 0;  ///< first and last time that was compared
   double last_s = 0;
+  double compared_s = 0;          ///< for how long
   std::optional<double> parts_s;  ///< when they are first farther apart than the tolerance
   double parts_m = 0;
   double greatest_m = 0;
   double greatest_s = 0;
+
+  bool in_both() const { return seen[0] > 0 && seen[1] > 0; }
+  double longest_heard_s() const { return std::max(heard_s[0], heard_s[1]); }
+  /// Compared whenever it was heard; flights do not begin and end at the same moment.
+  bool whole() const { return compared > 0 && compared_s >= longest_heard_s() - kLongestGap_s; }
 };
 
 class Comparison {
@@ -110,19 +47,28 @@ class Comparison {
       : options_(options), flights_{{options.first, options.flight}, {options.second, options.flight}} {}
 
   void Run();
+  /// Every UAV was compared, and was never too far off.
   bool agrees() const;
   nlohmann::ordered_json ToJson() const;
   std::string ToText() const;
-  void TellRest();
+  void TellProblems() {
+    for (FlightStates& flight : flights_) flight.source().TellProblems();
+  }
 
  private:
   void Add(int flight, int id, const Sample& sample);
   void Compare(VehicleDiff& vehicle) const;
+  /// The other flight has ended before this one.
+  bool GoesOn(int flight) const {
+    return flights_[flight].now_s() > flights_[1 - flight].now_s() + kLongestGap_s;
+  }
+  bool is_whole() const;
+  std::string Reservation() const;
   std::string Name(int id) const;
   const std::pair<const int, VehicleDiff>* FirstToPart() const;
 
   const LogDiffOptions& options_;
-  States flights_[2];
+  FlightStates flights_[2];
   std::map<int, VehicleDiff> vehicles_;
 };
 
@@ -130,7 +76,11 @@ void Comparison::Add(int flight, int id, const Sample& sample) {
   VehicleDiff& vehicle = vehicles_[id];
   auto& samples = vehicle.samples[flight];
   // A frozen link repeats its last state, a jittered one overtakes.
-  if (vehicle.seen[flight]++ > 0 && !samples.empty() && sample.t_s <= samples.back().t_s) return;
+  const bool is_first = vehicle.seen[flight]++ == 0;
+  if (!is_first && sample.t_s <= vehicle.latest_s[flight]) return;
+  const double since_s = is_first ? 0 : sample.t_s - vehicle.latest_s[flight];
+  if (since_s <= kLongestGap_s) vehicle.heard_s[flight] += since_s;
+  vehicle.latest_s[flight] = sample.t_s;
   samples.push_back(sample);
   // The other flight has no such UAV, or is silent.
   if (samples.size() > kMostWaiting) samples.pop_front();
@@ -152,7 +102,9 @@ void Comparison::Compare(VehicleDiff& vehicle) const {
       if (to.t_s - from.t_s <= kLongestGap_s) {
         const double share = (sample.t_s - from.t_s) / (to.t_s - from.t_s);
         const double distance_m = (from.place + share * (to.place - from.place) - sample.place).norm();
-        if (vehicle.compared++ == 0) vehicle.first_s = sample.t_s;
+        if (vehicle.compared++ == 0) vehicle.first_s = vehicle.last_s = sample.t_s;
+        const double since_s = sample.t_s - vehicle.last_s;
+        if (since_s <= kLongestGap_s) vehicle.compared_s += since_s;
         vehicle.last_s = sample.t_s;
         if (distance_m > vehicle.greatest_m) {
           vehicle.greatest_m = distance_m;
@@ -176,10 +128,12 @@ void Comparison::Run() {
     int flight = flights_[1].now_s() < flights_[0].now_s() ? 1 : 0;
     if (is_over[0] || is_over[1]) {
       flight = is_over[0] ? 1 : 0;
-      if (is_over[flight] || flights_[flight].now_s() > flights_[1 - flight].now_s()) break;
+      if (is_over[flight] || GoesOn(flight)) break;
     }
-    is_over[flight] =
-        !flights_[flight].ReadOn([&](int id, const Sample& sample) { Add(flight, id, sample); });
+    const bool alone = is_over[1 - flight];
+    is_over[flight] = !flights_[flight].ReadOn([&](int id, const Sample& sample) {
+      if (!alone || sample.t_s <= flights_[1 - flight].now_s()) Add(flight, id, sample);
+    });
     progress.Show(flights_[0].share_read());
     ThrowIfInterrupted();
   }
@@ -201,13 +155,39 @@ void Comparison::Run() {
 
 bool Comparison::agrees() const {
   for (const auto& [id, vehicle] : vehicles_) {
-    if (vehicle.parts_s || vehicle.seen[0] == 0 || vehicle.seen[1] == 0) return false;
+    if (vehicle.parts_s || vehicle.compared == 0) return false;
   }
   return true;
 }
 
+bool Comparison::is_whole() const {
+  return !GoesOn(0) && !GoesOn(1) && std::all_of(vehicles_.begin(), vehicles_.end(), [](const auto& item) {
+    return item.second.whole();
+  });
+}
+
+/// What the verdict leaves open, "" when nothing.
+std::string Comparison::Reservation() const {
+  std::vector<std::string> items;
+  for (int flight = 0; flight < 2; ++flight) {
+    if (!GoesOn(1 - flight)) continue;
+    items.push_back(fmt::format("up to {:.2f} s, where {} ends", flights_[flight].now_s(),
+                                flights_[flight].source().file()));
+  }
+  for (const auto& [id, vehicle] : vehicles_) {
+    if (vehicle.whole()) continue;
+    if (items.size() > kMostListed) {
+      items.emplace_back("...");
+      break;
+    }
+    items.push_back(fmt::format("{} for {:.1f} of {:.1f} s only", Name(id), vehicle.compared_s,
+                                vehicle.longest_heard_s()));
+  }
+  return items.empty() ? "" : fmt::format(" where they can be compared: {}", fmt::join(items, ", "));
+}
+
 std::string Comparison::Name(int id) const {
-  for (const States& flight : flights_) {
+  for (const FlightStates& flight : flights_) {
     const auto found = flight.callsigns().find(id);
     if (found != flight.callsigns().end()) return found->second;
   }
@@ -224,7 +204,8 @@ const std::pair<const int, VehicleDiff>* Comparison::FirstToPart() const {
 
 nlohmann::ordered_json Comparison::ToJson() const {
   using Json = nlohmann::ordered_json;
-  Json json = {{"agree", agrees()}, {"tolerance_m", options_.tolerance_m}};
+  Json json = {{"agree", agrees()}, {"whole", is_whole()}, {"tolerance_m", options_.tolerance_m}};
+  json["ends_first"] = GoesOn(1) ? Json("first") : GoesOn(0) ? Json("second") : Json();
   const auto* first = FirstToPart();
   json["parts_s"] = first ? Json(*first->second.parts_s) : Json();
   json["parts_vehicle_id"] = first ? Json(first->first) : Json();
@@ -232,6 +213,8 @@ nlohmann::ordered_json Comparison::ToJson() const {
   for (const auto& [id, vehicle] : vehicles_) {
     Json item = {{"id", id}, {"callsign", Name(id)}, {"compared_states", vehicle.compared}};
     item["only_in"] = vehicle.seen[1] == 0 ? Json("first") : vehicle.seen[0] == 0 ? Json("second") : Json();
+    item["compared_s"] = vehicle.compared_s;
+    item["heard_s"] = vehicle.longest_heard_s();
     item["from_s"] = vehicle.compared > 0 ? Json(vehicle.first_s) : Json();
     item["to_s"] = vehicle.compared > 0 ? Json(vehicle.last_s) : Json();
     item["parts_s"] = vehicle.parts_s ? Json(*vehicle.parts_s) : Json();
@@ -250,19 +233,23 @@ std::string Comparison::ToText() const {
         fmt::format("the flights part at {:.2f} s: {} is {:.2f} m off (tolerance {:g} m)\n\n",
                     *first->second.parts_s, Name(first->first), first->second.parts_m, options_.tolerance_m);
   } else if (agrees()) {
-    text = fmt::format("the flights agree within {:g} m\n\n", options_.tolerance_m);
+    text = fmt::format("the flights agree within {:g} m{}\n\n", options_.tolerance_m, Reservation());
+  } else if (std::all_of(vehicles_.begin(), vehicles_.end(),
+                         [](const auto& item) { return item.second.in_both(); })) {
+    text = "the flights cannot be compared: not every UAV was heard at the same time in both\n\n";
   } else {
     text = "the flights are not of the same UAVs\n\n";
   }
-  Table table = {{"UAV", "compared, s", "parts at, s", "by, m", "greatest, m", "at, s"}};
+  Table table = {{"UAV", "compared, s", "in all, s", "parts at, s", "by, m", "greatest, m", "at, s"}};
   for (const auto& [id, vehicle] : vehicles_) {
-    if (vehicle.seen[0] == 0 || vehicle.seen[1] == 0) {
-      table.push_back(
-          {Name(id), vehicle.seen[1] == 0 ? "only in the first" : "only in the second", "-", "-", "-", "-"});
+    if (!vehicle.in_both()) {
+      table.push_back({Name(id), vehicle.seen[1] == 0 ? "only in the first" : "only in the second", "-", "-",
+                       "-", "-", "-"});
       continue;
     }
     const bool any = vehicle.compared > 0;
     table.push_back({Name(id), any ? fmt::format("{:.2f} .. {:.2f}", vehicle.first_s, vehicle.last_s) : "-",
+                     fmt::format("{:.1f} of {:.1f}", vehicle.compared_s, vehicle.longest_heard_s()),
                      vehicle.parts_s ? fmt::format("{:.2f}", *vehicle.parts_s) : "-",
                      vehicle.parts_s ? fmt::format("{:.2f}", vehicle.parts_m) : "-",
                      any ? fmt::format("{:.3f}", vehicle.greatest_m) : "-",
@@ -271,24 +258,13 @@ std::string Comparison::ToText() const {
   return text + Aligned(table, 2);
 }
 
-void Comparison::TellRest() {
-  for (int flight = 0; flight < 2; ++flight) {
-    States& states = flights_[flight];
-    states.source().TellProblems();
-    if (flights_[1 - flight].now_s() > states.now_s() + kLongestGap_s) {
-      fmt::print(stderr, "skein: {} ends at {:.2f} s; what the other one has after that is not compared\n",
-                 states.source().file(), states.now_s());
-    }
-  }
-}
-
 }  // namespace
 
 bool CompareLogs(const LogDiffOptions& options, std::ostream& out) {
   Comparison comparison(options);
   comparison.Run();
   out << (options.json ? comparison.ToJson().dump(1) + '\n' : comparison.ToText());
-  comparison.TellRest();
+  comparison.TellProblems();
   return comparison.agrees();
 }
 

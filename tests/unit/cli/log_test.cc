@@ -241,7 +241,62 @@ TEST_F(LogTest, SaysThatAFlightAgreesWithItself) {
   const auto ran = Run({"diff", flight(), flight(), "--tolerance-m", "0.001"});
   EXPECT_EQ(ran.exit_code, 0);
   EXPECT_NE(ran.output.find("the flights agree within 0.001 m"), std::string::npos) << ran.output;
-  EXPECT_EQ(Json({"diff", flight(), flight(), "--json"})["vehicles"][0]["greatest_m"], 0);
+  EXPECT_NE(ran.output.find("m\n\n"), std::string::npos) << "without a reservation: " << ran.output;
+  const auto diff = Json({"diff", flight(), flight(), "--json"});
+  EXPECT_EQ(diff["whole"], true);
+  EXPECT_EQ(diff["ends_first"], nullptr);
+  EXPECT_EQ(diff["vehicles"][0]["greatest_m"], 0);
+  EXPECT_NEAR(diff["vehicles"][0]["compared_s"], 40, 0.2);
+  // UAV3 was silent for some of it, in both.
+  EXPECT_LT(diff["vehicles"][2]["heard_s"], 32);
+}
+
+TEST_F(LogTest, TellsWhatOfTwoFlightsCouldNotBeCompared) {
+  const std::string silent = In("silent.lcm");
+  Fly(silent, [](config::Scenario& scenario) {
+    scenario.timeline.clear();
+    scenario.formations.clear();
+  });
+  const std::vector<std::string> words{"diff", flight(), silent, "--tolerance-m", "100000"};
+  const auto ran = Run(words);
+  EXPECT_EQ(ran.exit_code, 0);
+  EXPECT_NE(ran.output.find(
+                "the flights agree within 100000 m where they can be compared: UAV3 for 29.9 of 40.0 s only"),
+            std::string::npos)
+      << ran.output;
+  const auto diff = Json({"diff", flight(), silent, "--tolerance-m", "100000", "--json"});
+  EXPECT_EQ(diff["agree"], true);
+  EXPECT_EQ(diff["whole"], false);
+  EXPECT_LT(diff["vehicles"][2]["compared_s"], diff["vehicles"][2]["heard_s"]);
+
+  const std::string half = In("half.lcm");
+  Run({"cut", flight(), "--from", "0", "--to", "15", "--out", half});
+  for (const bool swapped : {false, true}) {
+    const auto part = Run({"diff", swapped ? half : flight(), swapped ? flight() : half});
+    EXPECT_EQ(part.exit_code, 0);
+    EXPECT_NE(part.output.find("the flights agree within 1 m where they can be compared: up to 1"),
+              std::string::npos)
+        << part.output;
+  }
+  EXPECT_EQ(Json({"diff", flight(), half, "--json"})["ends_first"], "second");
+}
+
+TEST_F(LogTest, TakesUavsThatWereNeverHeardTogetherForNoAgreement) {
+  const std::string lost = In("lost.lcm");
+  Fly(lost, [](config::Scenario& scenario) {
+    std::erase_if(scenario.timeline, [](const config::TimelineEntry& entry) { return entry.at_s > 25; });
+  });
+  // UAV3 is heard up to 20 s in the one and from 30 s on in the other.
+  const std::string late = In("late.lcm");
+  Run({"cut", flight(), "--from", "25", "--out", late});
+  const auto ran = Run({"diff", lost, late, "--tolerance-m", "100000"});
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_NE(ran.output.find("not every UAV was heard at the same time in both"), std::string::npos)
+      << ran.output;
+  const auto diff = Json({"diff", lost, late, "--tolerance-m", "100000", "--json"});
+  EXPECT_EQ(diff["agree"], false);
+  EXPECT_EQ(diff["vehicles"][2]["only_in"], nullptr);
+  EXPECT_EQ(diff["vehicles"][2]["compared_states"], 0);
 }
 
 TEST_F(LogTest, FindsWhereTwoFlightsPart) {
