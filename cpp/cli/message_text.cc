@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "cli/log/text.h"
 #include "cli/spy.h"
 #include "cli/text_table.h"
 
@@ -28,7 +29,7 @@ std::string Clock(const std::string& name, const Json& value) {
 }
 
 std::string Scalar(const Json& value) {
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return Printable(value.get_ref<const std::string&>());
   if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
   return value.dump();
 }

@@ -9,6 +9,7 @@
 #include "bus/channel_ear.h"
 #include "bus/conversions.h"
 #include "cli/any_message.h"
+#include "cli/log/text.h"
 #include "cli/terminal.h"
 #include "cli/traffic.h"
 
@@ -73,7 +74,8 @@ class Screen {
 
 std::string Names(const Traffic& traffic) {
   std::string names;
-  for (const auto& [name, unused] : traffic.channels()) names += (names.empty() ? "" : ", ") + name;
+  for (const auto& [name, unused] : traffic.channels())
+    names += (names.empty() ? "" : ", ") + Printable(name);
   return names;
 }
 

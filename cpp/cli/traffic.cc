@@ -12,6 +12,7 @@
 #include "bus/decode.h"
 #include "bus/validate.h"
 #include "cli/any_message.h"
+#include "cli/log/text.h"
 #include "cli/text_table.h"
 
 namespace skein::cli {
@@ -178,7 +179,7 @@ std::string TrafficTable(const Traffic& traffic, bus::Utime now, std::size_t wid
     count += channel.count;
     const auto jitter_s = channel.jitter_s();
     const auto gaps = channel.gaps();
-    table.push_back({name, Number(rate.messages_s), Number(rate.bytes_s / 1e3),
+    table.push_back({Printable(name), Number(rate.messages_s), Number(rate.bytes_s / 1e3),
                      gaps ? std::to_string(*gaps) : "-", std::to_string(channel.undecodable),
                      channel.least_bytes == channel.most_bytes
                          ? std::to_string(channel.most_bytes)

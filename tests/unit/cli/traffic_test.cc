@@ -125,6 +125,13 @@ TEST_F(TrafficTest, TellsWhatIsNotSkeinsAndWhatCannotBeRead) {
   EXPECT_TRUE(json["channels"][1]["type"].is_null());
 }
 
+TEST_F(TrafficTest, ShowsNoNameThatATerminalObeys) {
+  Hear(kStart, "\x1b]0;title\x07POSE", State(0));
+  const std::string table = TrafficTable(traffic_, kStart + bus::kSecond, 0);
+  EXPECT_NE(table.find("?]0;title?POSE"), std::string::npos) << table;
+  EXPECT_EQ(table.find('\x1b'), std::string::npos);
+}
+
 TEST_F(TrafficTest, LeavesColumnsOutWhereTheTerminalIsNarrow) {
   Hear(kStart, "FLEET_STATE", State(1));
   const std::string wide = TrafficTable(traffic_, kStart + bus::kSecond, 0);
@@ -164,6 +171,10 @@ TEST(MessageText, ShowsListsAsTablesOrFieldByFieldWhereTheyAreTooWide) {
   const std::string narrow = MessageText(fields, 60);
   EXPECT_NE(narrow.find("vehicles[0]\n"), std::string::npos) << narrow;
   EXPECT_NE(narrow.find("vehicles[1]\n"), std::string::npos) << narrow;
+}
+
+TEST(MessageText, ShowsNoTextThatATerminalObeys) {
+  EXPECT_EQ(MessageText({{"name", "a\xC2\x9B"}, {"texts", {"\x1b[2J"}}}, 0), "name  a??\ntexts[1] ?[2J\n");
 }
 
 TEST(MessageText, NestsMessagesInMessages) {
