@@ -10,6 +10,7 @@ export default defineConfig({
     alias: {
       "axe-core": here("node_modules/axe-core/axe.js"),
       "playwright-core": here("node_modules/playwright-core/index.mjs"),
+      "vt-pbf": here("node_modules/vt-pbf/index.js"),
     },
   },
   server: { fs: { allow: [here("..")] } },

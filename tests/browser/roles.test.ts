@@ -154,6 +154,7 @@ test("released, control is nobody's until it is taken, and who only wants to loo
   await menu(ada);
   await ada.button("Take control").click();
   await until(async () => expect(await who(ada)).toBe("You"));
+  await ada.page.keyboard.press("Escape");
 });
 
 test("hold is in reach of whoever is there: it takes control that nobody holds", async () => {

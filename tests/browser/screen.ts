@@ -56,7 +56,9 @@ export class Screen {
     readonly page: Page,
   ) {
     page.on("console", (message) => {
-      if (message.type() === "error" || message.type() === "warning") this.complaints.push(message.text());
+      if (message.type() !== "error" && message.type() !== "warning") return;
+      const where = message.text().startsWith("Failed to load") ? ` ${message.location().url}` : "";
+      this.complaints.push(message.text() + where);
     });
     page.on("pageerror", (error) => this.complaints.push(String(error)));
     context.on("request", (request) => {

@@ -58,10 +58,16 @@ export class Station {
       : ["--scenario", `${kHere}scenarios/${this.options.scenario}`];
   }
 
+  /** Which bus a process is told; none when it serves recordings alone. */
+  private busOf(name: NodeName): string[] {
+    const alone = name === "web-bridge" && /^--(no-bus|log)$/m.test((this.options.bridge ?? []).join("\n"));
+    return alone ? [] : ["--lcm-url", kLcmUrl];
+  }
+
   /** All of them unless some are named. */
   start(...names: NodeName[]): void {
     for (const name of names.length === 0 ? kNodes : names) {
-      const child = spawn(`${kBin}/${name}`, [...this.argumentsOf(name), "--lcm-url", kLcmUrl], {
+      const child = spawn(`${kBin}/${name}`, [...this.argumentsOf(name), ...this.busOf(name)], {
         stdio: ["ignore", "pipe", "pipe"],
         env: { ...process.env, SKEIN_SCENARIOS: `${kHere}scenarios` },
       });

@@ -58,10 +58,9 @@ const kExtent = 4096;
 const kPolygon = 3;
 const kLine = 2;
 
-/** A vector tile of water in two upright stripes, with a road across all, named as a schema names its layers. */
-export function vectorTile(water: string, roads: string): Buffer {
-  const stripe = (left: number) => {
-    const right = left + kExtent / 4;
+/** A vector tile of water in two upright stripes on land, with a road across all, named as a schema names its layers. */
+export function vectorTile(land: string, water: string, roads: string): Buffer {
+  const stripe = (left: number, right = left + kExtent / 4) => {
     return [
       [left, 0],
       [right, 0],
@@ -78,6 +77,7 @@ export function vectorTile(water: string, roads: string): Buffer {
     [kExtent, kExtent / 8],
   ];
   const layers = {
+    [land]: feature(kPolygon, [stripe(0, kExtent)], "earth"),
     [water]: feature(kPolygon, [stripe(0), stripe(kExtent / 2)], "ocean"),
     [roads]: feature(kLine, [road], "highway"),
   };
@@ -90,9 +90,9 @@ export function writePmtiles(file: string, colour: Rgb): void {
 }
 
 /** A PMTiles file of vector tiles. */
-export function writeVectorPmtiles(file: string, water: string, roads: string, others: string[]): void {
-  const vector_layers = [...others, water, roads].map((id) => ({ id, fields: {} }));
-  writeArchive(file, 1, vectorTile(water, roads), { attribution: "Vector survey", vector_layers });
+export function writeVectorPmtiles(file: string, land: string, water: string, roads: string): void {
+  const vector_layers = [land, water, roads].map((id) => ({ id, fields: {} }));
+  writeArchive(file, 1, vectorTile(land, water, roads), { attribution: "Vector survey", vector_layers });
 }
 
 /** The whole world from zoom 0 to 14: the specification's version 3, nothing compressed, one tile for all places. */
