@@ -69,6 +69,8 @@ test("with a folder and no bus, the page begins with the list", async () => {
   await until(async () => expect(await entry.innerText()).toMatch(/2 UAVs[^]*1 marker/));
   // The whole is one as well: a log is known by what it begins with.
   expect(await page().locator(".recording").count()).toBe(2);
+  expect(await screen.text(".pill")).toBe("No recording open");
+  expect(await screen.text(".alarms .empty")).toBe("Open a recording to see its alarms.");
   for (const theme of ["dark", "light"] as const) {
     await screen.picture("recordings-alone", 1280, 720, theme);
     expect(await screen.barriers()).toEqual([]);

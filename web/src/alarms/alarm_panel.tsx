@@ -3,6 +3,7 @@ import type { Alarm, AlarmList } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
 import type { PanelProps } from "../shell/panel_props";
 import type { Station } from "../shell/station";
+import { nothingIsOpen, replay } from "../state/replay";
 import { acknowledgeAll, groupsOf } from "./alarm_list";
 import { AlarmRow } from "./alarm_row";
 import { sendAlarm } from "./send";
@@ -42,9 +43,11 @@ export function AlarmPanel({ station }: PanelProps) {
         {trouble !== "" && <p class="alarms-trouble">{trouble}</p>}
         {trouble === "" && open.length === 0 && (
           <p class="empty">
-            {shelved.length === 0
-              ? "Nothing is wrong: no alarm is on."
-              : "No alarm is on beside what is shelved."}
+            {nothingIsOpen(replay.value)
+              ? "Open a recording to see its alarms."
+              : shelved.length === 0
+                ? "Nothing is wrong: no alarm is on."
+                : "No alarm is on beside what is shelved."}
           </p>
         )}
         {list !== null && (

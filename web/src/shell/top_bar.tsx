@@ -2,7 +2,7 @@ import { RecordingPill } from "../recording/recording_pill";
 import { ControlPill } from "../control/control_pill";
 import { AlarmBadges } from "../alarms/alarm_badges";
 import { HoldControl } from "../formation/hold_control";
-import { replay } from "../state/replay";
+import { nothingIsOpen, replay } from "../state/replay";
 import type { Store } from "../state/store";
 import { Brand } from "../panels/icons";
 import { clock, kNone, utc } from "../units/format";
@@ -84,6 +84,7 @@ function connectionWord(store: Store, now_ms: number): ["live" | "waiting" | "go
       store.hello.value === null ? "waiting" : "gone",
       store.hello.value === null ? "Connecting…" : "Reconnecting…",
     ];
+  if (nothingIsOpen(replay.value)) return ["waiting", "No recording open"];
   if (store.busSilence_s(now_ms) !== null) return ["gone", "Bus silent"];
   if (store.fleet.motion === null) return ["waiting", "No fleet yet"];
   if (store.silent_nodes.value.length > 0) return ["gone", "Part of the bus silent"];

@@ -17,6 +17,11 @@ export function whyReplay(shown: Replay | null): string {
   return shown === null ? "" : "This is a replay: nothing can be commanded";
 }
 
+/** The bridge serves recordings alone, and none of them is open yet. */
+export function nothingIsOpen(shown: Replay | null): boolean {
+  return shown?.kind === "log" && shown.name === "";
+}
+
 /** The recording that a page's address asks for; null: none. */
 export function recordingIn(search: string): string | null {
   const name = new URLSearchParams(search).get("recording");

@@ -73,7 +73,7 @@ export function FormationTable({ station }: PanelProps) {
         {list.ids.length === 0 && (
           <p class="empty">
             {vehicles.size === 0
-              ? "No UAV is known yet: rows come with the roster on the bus."
+              ? "No UAV is known yet: rows come with the roster of a flight."
               : "No UAV is like that. Change the filter, or clear it."}
           </p>
         )}
