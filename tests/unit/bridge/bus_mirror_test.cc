@@ -323,7 +323,7 @@ TEST_F(BusMirrorTest, GivesANewcomerHelloFirstAndTheLastOfEach) {
                                  : Json::parse(*frame.bytes)["type"].get<std::string>());
   }
   EXPECT_EQ(types, (std::vector<std::string>{"hello", "bus", "roster", "formation", "path", "status",
-                                             "heartbeat", "event", "MOTION", "STATUS"}));
+                                             "heartbeat", "event", "MOTION", "STATUS", "complete"}));
 }
 
 TEST_F(BusMirrorTest, ShowsNullForWhatIsNotKnownOfAVehicle) {
