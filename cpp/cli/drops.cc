@@ -87,6 +87,7 @@ class DropRun {
         next = schedule_.next();
       }
       EndDue(Now() + lead_);
+      SendQueued();
       if (!next && active_.empty() && manual_.empty() && ledger_.IsSettled(Now())) return;
       station_.WaitUntil([] { return false; }, kLook);
       if (restarted_) throw Failure("the fleet was started anew: the plan ends there");
@@ -124,7 +125,6 @@ class DropRun {
         queue_.push_back(LinkCommand(id, of_one.uplink, of_one.downlink, &of_one, start, drop.for_s));
       }
     }
-    SendQueued();
   }
 
   void EndDue(bus::Utime until) {
@@ -146,7 +146,6 @@ class DropRun {
       });
       if (!goes_on) manual_.erase(id);
     }
-    SendQueued();
   }
 
   /// What several drops make of a link together, from a moment on. The simulator's own going back after a
@@ -197,8 +196,8 @@ class DropRun {
         Problem(Callsign(station_.picture(), commands[i].vehicle_id) +
                 ": its link could not be restored: " + reason);
       }
-    } catch (const Failure& failure) {
-      Problem(fmt::format("not all links could be restored: {}", failure.what()));
+    } catch (const std::exception& error) {
+      Problem(fmt::format("not all links could be restored: {}", error.what()));
     }
   }
 
@@ -252,7 +251,10 @@ class DropRun {
   }
 
   /// Not on standard output, which may be the report as JSON.
-  static void Problem(const std::string& text) { fmt::print(stderr, "skein: {}\n", text); }
+  void Problem(const std::string& text) {
+    fmt::print(stderr, "skein: {}\n", text);
+    restored_ = false;
+  }
 
   DropReport MakeReport() const {
     return {ledger_, options_.limit_s, Now(), scenario_start_,
@@ -269,6 +271,7 @@ class DropRun {
       throw Failure(fmt::format("{} drop{} missed or found after more than {:g} s", failures,
                                 failures == 1 ? " was" : "s were", options_.limit_s));
     }
+    if (!restored_) throw Failure("not all links are as they were");
   }
 
   Station& station_;
@@ -285,6 +288,7 @@ class DropRun {
   int last_number_ = 0;
   bool heard_monitor_ = false;
   bool restarted_ = false;
+  bool restored_ = true;  ///< everything, or nothing was to be
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "cli/station.h"
 
 #include <cstdlib>
+#include <memory>
+#include <set>
 
 #include "bus/channels.h"
 #include "bus/chunks.h"
@@ -11,8 +13,16 @@ namespace {
 namespace channel = bus::channel;
 
 constexpr bus::Utime kLook = 20'000;  // how often a wait looks at what has come
+constexpr bus::Utime kRepeat = bus::kSecond;
 constexpr int kTries = 3;
+// Of many commands, so that one that was lost still comes before its time.
+constexpr bus::Utime kRepeatOfMany = 3 * bus::kSecond / 10;
+constexpr int kTriesOfMany = 10;
 constexpr bus::Utime kRosterLimit = 3 * bus::kSecond;
+
+Failure NotAnswered(const std::string& channel, const std::string& who) {
+  return Failure("nobody answered " + channel + " for 3 s: is " + who + " running, and on this LCM URL?");
+}
 
 }  // namespace
 
@@ -63,15 +73,52 @@ const fleet_roster_t& Station::Roster() {
   return *picture_.roster;
 }
 
-bus::Answer Station::WaitForAnswer(const std::string& channel, std::int64_t request_id,
+void Station::WaitForAnswers(const Commands& commands, std::size_t begin, std::size_t end,
+                             std::map<std::size_t, std::string>& refusals) {
+  // Shared with who may answer later, when this was interrupted.
+  const auto answers = std::make_shared<std::map<std::size_t, bus::Answer>>();
+  std::map<std::size_t, std::int64_t> request_ids;
+  std::set<std::size_t> repeated;
+  const auto send = [&](std::size_t i) {
+    request_ids[i] =
+        commands.send(i, [answers, i](const bus::Answer& answer) { answers->insert_or_assign(i, answer); });
+  };
+  for (std::size_t i = begin; i < end; ++i) send(i);
+  bool is_over = false;
+  for (int tries = 1; !is_over; ++tries) {
+    is_over = WaitUntil([&] { return answers->size() == end - begin; }, kRepeatOfMany);
+    if (!is_over && tries >= kTriesOfMany) break;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto answer = answers->find(i);
+      if (answer == answers->end()) {
+        outbox_.Repeat(request_ids[i]);
+        repeated.insert(i);
+      } else if (!answer->second.accepted && repeated.erase(i) > 0) {
+        // One that was lost on its way is too old once others of the session were obeyed: under this number
+        // it never will be.
+        answers->erase(answer);
+        send(i);
+        is_over = false;
+      }
+    }
+  }
+  for (const auto& [i, request_id] : request_ids) outbox_.Forget(request_id);
+  if (!is_over) throw NotAnswered(commands.channel, commands.who);
+  for (const auto& [i, answer] : *answers) {
+    if (!answer.accepted) refusals[i] = answer.reason;
+  }
+}
+
+std::string Station::WaitForAnswer(const std::string& channel, std::int64_t request_id,
                                    const std::string& who) {
   const auto answered = [this] { return answer_.has_value(); };
   for (int tries = 1; !WaitUntil(answered, kRepeat) && tries < kTries; ++tries) outbox_.Repeat(request_id);
   if (!answered()) {
     outbox_.Forget(request_id);
-    throw Failure("nobody answered " + channel + " for 3 s: is " + who + " running, and on this LCM URL?");
+    throw NotAnswered(channel, who);
   }
-  return *answer_;
+  if (!answer_->accepted) throw Failure("refused: " + answer_->reason);
+  return answer_->reason;
 }
 
 }  // namespace skein::cli

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <optional>
 #include <skein/alarm_list_t.hpp>
 #include <skein/fleet_roster_t.hpp>
@@ -74,37 +73,23 @@ class Station {
   /// Returns the remark. Throws Failure when it is refused, or not answered within 3 s (`who` should have).
   template <typename Command>
   std::string Ask(const std::string& channel, Command command, const std::string& who) {
-    const bus::Answer answer = AnswerTo(channel, std::move(command), who);
-    if (!answer.accepted) throw Failure("refused: " + answer.reason);
-    return answer.reason;
+    answer_.reset();
+    const auto keep = [this](const bus::Answer& answer) { answer_ = answer; };
+    return WaitForAnswer(channel, outbox_.Send(channel, std::move(command), keep), who);
   }
 
   /// Sends commands that are to come into force together, without waiting for each answer before the next
-  /// one. Doing one of them twice must do no harm. Returns why those that were refused were, by their place.
-  /// Throws Failure when one is not answered within 3 s.
+  /// one. Nobody does one twice. Returns why those that were refused were, by their place. Throws Failure
+  /// when one is not answered within 3 s.
   template <typename Command>
   std::map<std::size_t, std::string> AskAll(const std::string& channel, const std::vector<Command>& commands,
                                             const std::string& who) {
+    const SendOne send = [&](std::size_t i, bus::CommandOutbox::Done done) {
+      return outbox_.Send(channel, commands[i], std::move(done));
+    };
     std::map<std::size_t, std::string> refusals;
     for (std::size_t begin = 0; begin < commands.size(); begin += kAtOnce) {
-      const std::size_t end = std::min(begin + kAtOnce, commands.size());
-      const auto accepted = std::make_shared<std::map<std::size_t, bool>>();
-      std::vector<std::int64_t> request_ids;
-      for (std::size_t i = begin; i < end; ++i) {
-        request_ids.push_back(outbox_.Send(channel, commands[i], [accepted, i](const bus::Answer& answer) {
-          (*accepted)[i] = answer.accepted;
-        }));
-      }
-      WaitUntil([&] { return accepted->size() == end - begin; }, kRepeat);
-      for (const std::int64_t request_id : request_ids) outbox_.Forget(request_id);
-      // The number of one that was lost is too old by now, so it needs another one; and those behind it are
-      // to come after it.
-      std::size_t first = begin;
-      while (first < end && (*accepted)[first]) ++first;
-      for (std::size_t i = first; i < end; ++i) {
-        const bus::Answer answer = AnswerTo(channel, commands[i], who);
-        if (!answer.accepted) refusals[i] = answer.reason;
-      }
+      WaitForAnswers({channel, who, send}, begin, std::min(begin + kAtOnce, commands.size()), refusals);
     }
     return refusals;
   }
@@ -112,15 +97,18 @@ class Station {
  private:
   /// Well within what a receiver's buffer holds and CommandInbox remembers.
   static constexpr std::size_t kAtOnce = 50;
-  static constexpr bus::Utime kRepeat = bus::kSecond;
 
-  template <typename Command>
-  bus::Answer AnswerTo(const std::string& channel, Command command, const std::string& who) {
-    answer_.reset();
-    const auto keep = [this](const bus::Answer& answer) { answer_ = answer; };
-    return WaitForAnswer(channel, outbox_.Send(channel, std::move(command), keep), who);
-  }
-  bus::Answer WaitForAnswer(const std::string& channel, std::int64_t request_id, const std::string& who);
+  /// Sends the command of that place. Returns the request_id.
+  using SendOne = std::function<std::int64_t(std::size_t place, bus::CommandOutbox::Done done)>;
+  struct Commands {
+    const std::string& channel;
+    const std::string& who;
+    const SendOne& send;
+  };
+  void WaitForAnswers(const Commands& commands, std::size_t begin, std::size_t end,
+                      std::map<std::size_t, std::string>& refusals);
+
+  std::string WaitForAnswer(const std::string& channel, std::int64_t request_id, const std::string& who);
 
   bus::Bus& bus_;
   Run run_;

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <skein/ack_t.hpp>
 #include <skein/link_command_t.hpp>
 #include <sstream>
@@ -150,11 +151,39 @@ TEST_F(DropsTest, CommandsAWholeFleetBeforeTheDropBegins) {
   EXPECT_EQ(nlohmann::json::parse(out_.str())["summary"]["found"], 300);
 }
 
+TEST_F(DropsTest, CommandsUavsThatAreNamedOneByOneBeforeTheirDropsBegin) {
+  StartFleet(200);
+  Obey();
+  std::string list = "at_s,uav,for_s\n";
+  for (int id = 1; id <= 200; ++id) list += "0," + std::to_string(id) + ",6\n";
+  EXPECT_EQ(Drops({"--list", Write("list.csv", list), "--from-now"}), "");
+  ASSERT_EQ(got_.size(), 200U);
+  for (const link_command_t& command : got_) EXPECT_LT(command.utime, command.start_utime);
+}
+
+TEST_F(DropsTest, SaysWhenNotAllLinksAreAsTheyWere) {
+  StartFleet(1);
+  inbox_.Obey<link_command_t>(channel::kCmdLink, [](const link_command_t& command) {
+    if (command.mode == link_command_t::MODE_RESTORED) return bus::Answer::Refused("out of order");
+    return bus::Answer::Accepted();
+  });
+  interrupt_at_ = kStart + 10 * bus::kSecond;
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(Drops({"1", "--for", "300", "--repeat", "400", "--limit", "100"}),
+            "not all links are as they were");
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("UAV1: its link could not be restored: out of order"),
+            std::string::npos);
+}
+
 TEST_F(DropsTest, SendsAgainWhatWasLostOnTheWay) {
   StartFleet(100);
   std::int64_t last = 0;
+  std::set<std::int64_t> lost;
+  std::set<std::int64_t> obeyed;
+  // Of one the command is lost, of one the answer, once each.
   node_.Subscribe<link_command_t>(channel::kCmdLink, [&](const link_command_t& command) {
-    if (command.request_id == 30) return;
+    const std::int64_t id = command.request_id;
+    if (id == 30 && lost.insert(id).second) return;
     ack_t ack;
     ack.utime = executor_.Now();
     ack.node = "fleet-simulator";
@@ -162,16 +191,19 @@ TEST_F(DropsTest, SendsAgainWhatWasLostOnTheWay) {
     ack.session_id = command.to_session_id;
     ack.command_session_id = command.session_id;
     ack.command_request_id = command.request_id;
-    ack.accepted = command.request_id > last;
+    ack.accepted = id > last || obeyed.contains(id);
     ack.reason = ack.accepted ? "" : "too old";
-    last = std::max(last, command.request_id);
-    if (ack.accepted) got_.push_back(command);
+    last = std::max(last, id);
+    if (ack.accepted && obeyed.insert(id).second) got_.push_back(command);
+    if (id == 40 && lost.insert(id).second) return;
     node_.Publish(channel::kAck, ack);
   });
   EXPECT_EQ(Drops({"all", "--for", "6"}), "");
   std::map<int, int> commands;
   for (const link_command_t& command : got_) ++commands[command.vehicle_id];
   EXPECT_EQ(commands.size(), 100U);
+  EXPECT_EQ(got_.size(), 100U) << "twice for a time would be for good";
+  for (const link_command_t& command : got_) EXPECT_LT(command.utime, command.start_utime);
 }
 
 TEST_F(DropsTest, RestoresEveryLinkWhenStopped) {
