@@ -195,6 +195,31 @@ TEST(Replay, ThatIsPlayedOnALiveBusCommandsNobody) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Replay, PlaysEachPartOnceAlsoWhenTheFirstOneIsGone) {
+  const std::string folder = FreshFolder("skein-replay");
+  // Sync word, number, time, lengths, channel, data.
+  const std::string event = std::string("\xED\xA1\xDA\x01", 4) + std::string(15, '\0') + '\1' +
+                            std::string("\0\0\0\4\0\0\0\3", 8) + "POSEabc";
+  for (const char* part : {"01", "02"}) {
+    std::ofstream(folder + "/flight.lcm." + part, std::ios::binary) << event;
+  }
+  const std::vector<std::vector<std::string>> named = {{"02"}, {"01", "02"}};
+  for (const auto& parts : named) {
+    std::vector<std::string> more;
+    for (const std::string& part : parts) more.push_back(folder + "/flight.lcm." + part);
+    Process replay = StartReplay(folder + "/flight.lcm", FreeTcpPort(), FreshLcmUrl(), more);
+    ASSERT_TRUE(replay.WaitForOutput("That was the end of the recording", 60s)) << replay.output();
+    replay.Signal(SIGINT);
+    EXPECT_EQ(replay.WaitForEnd(10s), 0) << replay.output();
+    std::string played;
+    for (std::size_t at = 0; (at = replay.output().find("flight.lcm.0", at)) != std::string::npos; ++at) {
+      played += replay.output().substr(at, 13) + ' ';
+    }
+    EXPECT_EQ(played, "flight.lcm.01 flight.lcm.02 ") << replay.output();
+  }
+  std::filesystem::remove_all(folder);
+}
+
 TEST(Replay, SaysWhatIsWrongWithAFile) {
   const std::string folder = FreshFolder("skein-replay");
   const std::string script = std::string(SKEIN_SOURCE_DIR) + "/scripts/replay";
