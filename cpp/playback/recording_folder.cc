@@ -42,11 +42,6 @@ bool JustChanged(bus::Utime changed) {
   return age >= 0 && age < kJustChanged;
 }
 
-bool IsRegular(const fs::path& file) {
-  std::error_code unknown;
-  return fs::is_regular_file(fs::symlink_status(file, unknown));
-}
-
 /// As the file system says now; none when all of it is gone.
 std::optional<RecordingFiles> Look(const fs::path& folder, const std::string& name,
                                    const std::vector<fs::path>& parts) {
@@ -69,23 +64,30 @@ std::optional<RecordingFiles> Look(const fs::path& folder, const std::string& na
   return files;
 }
 
-bool IsRecording(const std::string& name, const std::vector<fs::path>& parts) {
-  return name.ends_with(".lcm") || (!parts.empty() && IsRegular(parts.front()) && IsLog(parts.front()));
-}
-
-}  // namespace
-
-std::vector<RecordingFiles> FindRecordings(const fs::path& folder) {
+/// What may be a recording or a part of one, by its name alone.
+std::vector<fs::path> Candidates(const fs::path& folder) {
   std::vector<fs::path> candidates;
   std::error_code error;
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     const fs::path& file = entry->path();
     const bool is_beside = file.extension() == ".json" || file.extension() == recording::kIndexExtension;
-    if (file.filename().string().starts_with('.') || is_beside || !IsRegular(file)) continue;
+    std::error_code unknown;
+    const bool is_file = !entry->is_symlink(unknown) && entry->is_regular_file(unknown);
+    if (file.filename().string().starts_with('.') || is_beside || !is_file) continue;
     candidates.push_back(file);
   }
+  return candidates;
+}
+
+bool IsRecording(const std::string& name, const std::vector<fs::path>& parts) {
+  return name.ends_with(".lcm") || (!parts.empty() && IsLog(parts.front()));
+}
+
+}  // namespace
+
+std::vector<RecordingFiles> FindRecordings(const fs::path& folder) {
   std::vector<RecordingFiles> found;
-  for (const auto& [name, parts] : recording::GroupParts(candidates)) {
+  for (const auto& [name, parts] : recording::GroupParts(Candidates(folder))) {
     if (!IsRecording(name, parts)) continue;
     if (auto files = Look(folder, name, parts)) found.push_back(std::move(*files));
   }
@@ -93,11 +95,12 @@ std::vector<RecordingFiles> FindRecordings(const fs::path& folder) {
 }
 
 std::optional<RecordingFiles> FindRecording(const fs::path& folder, const std::string& name, bool trusted) {
-  // None that leads out of the folder, nor a hidden one.
-  const bool plain = !name.empty() && !name.starts_with('.') && fs::path(name).filename() == name;
-  if (!plain && !trusted) return std::nullopt;
-  const auto parts = recording::PartsOf(folder / name);
-  return trusted || IsRecording(name, parts) ? Look(folder, name, parts) : std::nullopt;
+  if (trusted) return Look(folder, name, recording::PartsOf(folder / name));
+  // By looking at what is there: no name leads out of the folder, and no part is a recording by itself.
+  const auto recordings = recording::GroupParts(Candidates(folder));
+  const auto found = recordings.find(name);
+  if (found == recordings.end() || !IsRecording(name, found->second)) return std::nullopt;
+  return Look(folder, name, found->second);
 }
 
 std::string RemoveRecording(const fs::path& folder, const RecordingFiles& files) {

@@ -50,9 +50,11 @@ TEST_F(RecordingFolderTest, ListsLogsByNameAndByWhatTheyBeginWith) {
 
 TEST_F(RecordingFolderTest, FindsNothingThatIsNotListed) {
   Put("a.lcm");
+  Put("a.lcm.01");
   Put("notes.txt", "no log");
   Put(".hidden.lcm");
-  for (const char* name : {"", ".", "..", "../a.lcm", "./a.lcm", "notes.txt", ".hidden.lcm", "b.lcm"}) {
+  for (const char* name :
+       {"", "a.lcm.01", ".", "..", "../a.lcm", "./a.lcm", "notes.txt", ".hidden.lcm", "b.lcm"}) {
     EXPECT_FALSE(Find(name)) << name;
   }
   EXPECT_TRUE(Find("a.lcm"));
