@@ -114,6 +114,18 @@ TEST_F(MakeRoomTest, MakesRoomOnTheDiskAsWell) {
   EXPECT_FALSE(removal.over_quota);
 }
 
+TEST_F(MakeRoomTest, CountsWhatItHasRemovedAsFree) {
+  const std::string first = Recorded(1, 1);
+  const std::string second = Recorded(2, 1);
+  // Their removal frees nothing that the disk would tell, as with a file that somebody still reads.
+  constexpr std::int64_t kSparse = 100'000'000'000;
+  for (const std::string& name : {first, second}) fs::resize_file(folder_.path / name, kSparse);
+  const std::int64_t keep_free = FreeBytes(folder_.path).value() + kSparse / 2;
+  const Removal removal = MakeRoom(folder_.path, {10 * kSparse, keep_free});
+  EXPECT_EQ(removal.files, std::vector<std::string>{first});
+  EXPECT_FALSE(removal.low);
+}
+
 TEST(FreeBytes, AreThoseOfTheDiskOnWhichAFolderWouldBe) {
   const Folder folder;
   EXPECT_EQ(FreeBytes(folder.path / "not" / "yet").has_value(), true);
