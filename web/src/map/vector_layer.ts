@@ -1,7 +1,7 @@
 /** Vector tiles of a PMTiles file, drawn in greys: on this map colours tell of UAVs. A chunk of its own, loaded when there is such a file. */
 import { namedFlavor } from "@protomaps/basemaps";
 import type L from "leaflet";
-import type { PMTiles } from "pmtiles";
+import { PMTiles, type RangeResponse } from "pmtiles";
 import {
   CenteredTextSymbolizer,
   GeomType,
@@ -28,6 +28,23 @@ export interface ArchiveOptions {
   bounds: L.LatLngBounds;
 }
 
+/** Tiles that can't be had are empty: the library would write each of them into the browser's console. */
+class Archive extends PMTiles {
+  override async getZxy(
+    z: number,
+    x: number,
+    y: number,
+    signal?: AbortSignal,
+  ): Promise<RangeResponse | undefined> {
+    try {
+      return await super.getZxy(z, x, y, signal);
+    } catch (error) {
+      if (signal?.aborted) throw error;
+      return undefined;
+    }
+  }
+}
+
 interface Rules {
   paintRules: PaintRule[];
   labelRules: LabelRule[];
@@ -49,7 +66,7 @@ export function vectorLayer(
   return leafletLayer({
     ...options,
     ...rules,
-    url: archive,
+    url: new Archive(archive.source),
     maxDataZoom: maxNativeZoom,
     backgroundColor: is_protomaps ? flavour.background : flavour.earth,
   }) as unknown as L.GridLayer;
