@@ -2,13 +2,11 @@
 
 #include <cmath>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "bus/node_main.h"
 #include "config/scenario.h"
 #include "recorder/flight_recorder_node.h"
-#include "recorder/recording_folder.h"
 
 namespace {
 
@@ -32,15 +30,6 @@ CLI::Validator Between(double least, double most) {
 
 // More than any disk holds; in bytes still well below 2^63.
 constexpr double kMostGb = 1e9;
-
-/// To keep free what the disk has not would take every recording, and all in vain.
-void CheckDisk(const std::string& folder, double keep_free_gb) {
-  const auto disk_bytes = recorder::DiskBytes(folder);
-  if (!disk_bytes || keep_free_gb * 1e9 <= static_cast<double>(*disk_bytes)) return;
-  throw std::runtime_error(
-      fmt::format("--keep-free-gb: the disk of {} has {:.1f} GB in all, so {:g} cannot stay free", folder,
-                  static_cast<double>(*disk_bytes) * 1e-9, keep_free_gb));
-}
 
 }  // namespace
 
@@ -70,7 +59,6 @@ int main(int argc, char** argv) {
       ->check(Between(0, kMostGb))
       ->capture_default_str();
   return node.Run(argc, argv, [&](bus::Bus& bus, bus::LiveExecutor& executor) {
-    CheckDisk(folder, keep_free_gb);
     recorder::FlightRecorderOptions options;
     options.folder = folder;
     options.lcm_url = node.lcm_url();

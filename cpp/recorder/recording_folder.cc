@@ -92,15 +92,10 @@ std::optional<std::int64_t> FreeBytes(const fs::path& folder) {
   return static_cast<std::int64_t>(disk->f_bavail * disk->f_frsize);
 }
 
-std::optional<std::int64_t> DiskBytes(const fs::path& folder) {
-  const auto disk = DiskOf(folder);
-  if (!disk) return std::nullopt;
-  return static_cast<std::int64_t>(disk->f_blocks * disk->f_frsize);
-}
-
 std::int64_t RoomToBegin(const fs::path& folder) {
-  const auto disk_bytes = DiskBytes(folder);
-  return disk_bytes ? std::min(kMostRoomToBegin, *disk_bytes / 20) : kMostRoomToBegin;
+  const auto disk = DiskOf(folder);
+  if (!disk) return kMostRoomToBegin;
+  return std::min(kMostRoomToBegin, static_cast<std::int64_t>(disk->f_blocks * disk->f_frsize / 20));
 }
 
 Removal MakeRoom(const fs::path& folder, const Room& room) {

@@ -17,9 +17,6 @@ struct Room {
 /// What this user may still write on the disk of a folder (or of where it would be) [B].
 std::optional<std::int64_t> FreeBytes(const std::filesystem::path& folder);
 
-/// The size of that disk [B].
-std::optional<std::int64_t> DiskBytes(const std::filesystem::path& folder);
-
 /// So much beyond what is to be kept free must there be before recording begins again: else it would begin
 /// and end all the time [B].
 std::int64_t RoomToBegin(const std::filesystem::path& folder);
