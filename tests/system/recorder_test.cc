@@ -221,6 +221,9 @@ TEST_F(RecorderTest, TakesItsLoggerWithItWhenItIsKilled) {
   ASSERT_TRUE(IsRecording()) << recorder.output();
   const pid_t logger = Logger();
   ASSERT_NE(logger, 0);
+  // lcm-logger keeps what is new to itself for a moment.
+  ASSERT_TRUE(HearsStatus(recording_status_t::RECORDING,
+                          [this](const auto&) { return Holds(ReadAll(), "recording_started"); }));
   kill(recorder.pid(), SIGKILL);
   EXPECT_TRUE(WaitUntilGone({logger}, 2s));
   EXPECT_TRUE(Holds(ReadAll(), "recording_started"));
