@@ -19,7 +19,6 @@ const folder = new Station({ scenario: "roles.json", bridge: ["--logs", kFolder,
 const alone = new Station({ scenario: "roles.json", bridge: ["--log", kWhole] });
 let screen: Screen;
 let time_line: TimeLine;
-let marked_s: number;
 const page = () => screen.page;
 
 /** The recording is open and its length known. */
@@ -50,8 +49,6 @@ beforeAll(async () => {
     skein("log", "cut", kWhole, ...range, "--out", `${kFolder}/${to}`);
   cut(kParts, "--to", String(kSplit_s));
   cut(`${kParts}.01`, "--from", String(kSplit_s));
-  const about = JSON.parse(skein("log", "info", kWhole, "--json")) as { markers: { t_s: number }[] };
-  marked_s = about.markers[0]?.t_s ?? NaN;
 }, 90_000);
 
 afterAll(async () => {
@@ -94,6 +91,10 @@ test("a recording in two parts is one flight", async () => {
 
 test("a marker has a flag that tells what was written, and is jumped to", async () => {
   explain(folder);
+  const response = await fetch(`${kPageUrl}api/recordings/${kParts}`);
+  const { marks } = (await response.json()) as { marks: { kind: string; t_s: number }[] };
+  const marked_s = marks.find(({ kind }) => kind === "marker")?.t_s ?? NaN;
+  expect(marked_s).toBeGreaterThan(kSplit_s);
   const place = await time_line.placeOf(marked_s / (await time_line.duration_s()));
   await page().mouse.move(place.x, place.y);
   const tip = page().locator(".track-tip");
