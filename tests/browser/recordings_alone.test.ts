@@ -92,10 +92,13 @@ test("a recording in two parts is one flight", async () => {
 test("a marker has a flag that tells what was written, and is jumped to", async () => {
   explain(folder);
   const response = await fetch(`${kPageUrl}api/recordings/${kParts}`);
-  const { marks } = (await response.json()) as { marks: { kind: string; t_s: number }[] };
+  const { marks, duration_s } = (await response.json()) as {
+    marks: { kind: string; t_s: number }[];
+    duration_s: number;
+  };
   const marked_s = marks.find(({ kind }) => kind === "marker")?.t_s ?? NaN;
   expect(marked_s).toBeGreaterThan(kSplit_s);
-  const place = await time_line.placeOf(marked_s / (await time_line.duration_s()));
+  const place = await time_line.placeOf(marked_s / duration_s);
   await page().mouse.move(place.x, place.y);
   const tip = page().locator(".track-tip");
   await until(async () => expect(await tip.innerText()).toContain(kNote));
