@@ -15,6 +15,8 @@
 #include <system_error>
 #include <utility>
 
+#include "recording/card.h"
+
 namespace skein::recorder {
 namespace {
 
@@ -63,10 +65,6 @@ std::string FileStem(const std::string& scenario) {
   return stem.empty() ? "flight" : stem;
 }
 
-fs::path CardPath(const fs::path& folder, const std::string& recording) {
-  return folder / (recording + ".json");
-}
-
 std::string BeginOf(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::array<char, kBeginBytes> bytes{};
@@ -89,7 +87,8 @@ void Recording::Claim() {
     const std::string name = stem_ + "-" + LocalTime(start) + ".lcm";
     // Also when only a log lies there: it is somebody else's.
     if (Exists(folder_ / name)) continue;
-    const int fd = open(CardPath(folder_, name).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    const int fd =
+        open(recording::CardOf(folder_ / name).c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (fd < 0 && errno == EEXIST) continue;
     if (fd < 0) Throw(folder_, "cannot be written into");
     if (card_fd_ >= 0) close(card_fd_);
@@ -157,7 +156,7 @@ void Recording::WriteCard() {
   // Locked before it has its name, so that there is no moment without.
   flock(fd, LOCK_EX | LOCK_NB);
   const bool written = write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  if (!written || rename(fresh.c_str(), CardPath(folder_, name_).c_str()) != 0) {
+  if (!written || rename(fresh.c_str(), recording::CardOf(folder_ / name_).c_str()) != 0) {
     const int reason = errno;
     close(fd);
     unlink(fresh.c_str());
@@ -186,7 +185,7 @@ void Recording::Rename(const std::string& stem, const std::string& scenario) {
   card_.scenario = scenario;
   WriteCard();
   if (stem != stem_before) {
-    fs::remove(CardPath(folder_, before));
+    fs::remove(recording::CardOf(folder_ / before));
     close(old_card_fd);
   }
 }

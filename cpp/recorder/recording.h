@@ -30,9 +30,6 @@ struct Card {
   std::vector<Part> parts;
 };
 
-/// Where the card of a recording is.
-std::filesystem::path CardPath(const std::filesystem::path& folder, const std::string& recording);
-
 /// The first bytes of a file as a card has them; "" when it has not so many yet, or cannot be read.
 std::string BeginOf(const std::filesystem::path& file);
 

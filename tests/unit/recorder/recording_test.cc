@@ -5,6 +5,7 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include "recording/card.h"
 #include "unit/recorder/folder_for_tests.h"
 
 namespace skein::recorder::testing {
@@ -98,8 +99,8 @@ TEST(RecordingTest, IsRenamedWhileItIsWritten) {
   EXPECT_EQ(recording.bytes(), 2000);
   EXPECT_TRUE(recording.name().starts_with("crossing-"));
   EXPECT_FALSE(fs::exists(folder.path / "logs" / before));
-  EXPECT_FALSE(fs::exists(CardPath(folder.path / "logs", before)));
-  EXPECT_TRUE(IsLocked(CardPath(folder.path / "logs", recording.name())));
+  EXPECT_FALSE(fs::exists(skein::recording::CardOf(folder.path / "logs" / before)));
+  EXPECT_TRUE(IsLocked(skein::recording::CardOf(folder.path / "logs" / recording.name())));
 }
 
 TEST(RecordingTest, LocksItsCardForAsLongAsItIsWritten) {
@@ -107,7 +108,7 @@ TEST(RecordingTest, LocksItsCardForAsLongAsItIsWritten) {
   fs::path card;
   {
     Recording recording = Make(folder);
-    card = CardPath(folder.path / "logs", recording.name());
+    card = skein::recording::CardOf(folder.path / "logs" / recording.name());
     EXPECT_TRUE(IsLocked(card));
     recording.NextPart();
     Append(recording.way_in(), Content(1));
