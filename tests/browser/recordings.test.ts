@@ -81,7 +81,6 @@ test("what cannot be opened says why, and leads back", async () => {
   await page().goto(`${kPageUrl}?recording=nothing.lcm`);
   await until(async () => expect(await screen.text(".opening")).toMatch(/nothing\.lcm can't be opened/));
   await screen.picture("recording-missing", 1280, 720, "light");
-  screen.complaints.length = 0; // the browser's own words for 404
   await page()
     .getByRole("link", { name: /Leave|All/ })
     .click();
@@ -105,7 +104,9 @@ test("who holds control deletes it, after being asked with its name", async () =
   expect(statSync(`${flight.folder}/${kName}`).size).toBeGreaterThan(0);
 });
 
-test("nothing was complained of, and no request left this machine", () => {
-  expect(screen.complaints).toEqual([]);
+test("nothing was complained of but what cannot be opened, and no request left this machine", () => {
+  // The page goes on asking until it is left, and the browser tells each refusal in words of its own.
+  const of_refusals = new RegExp(`recordings?[=/](${kNotes}|nothing\\.lcm)`);
+  expect(screen.complaints.filter((text) => !of_refusals.test(text))).toEqual([]);
   expect(screen.strangers).toEqual([]);
 });

@@ -4,7 +4,7 @@ import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 
 const kClosestFit_zoom = 15;
-const kMargin_px = 48;
+const kMargin_px = 40;
 
 /** Follows by steps of at least this [px]: smaller ones can't be seen. */
 const kLeastStep_px = 1;

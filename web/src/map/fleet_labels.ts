@@ -4,7 +4,7 @@ import type { Store } from "../state/store";
 import { duration } from "../units/format";
 import { altitudeAbove, speed } from "../units/quantities";
 import type { Colours } from "./colours";
-import { placeLabels, type LabelRequest, type PlacedLabel } from "./labels";
+import { placeLabels, type Box, type LabelRequest, type PlacedLabel } from "./labels";
 import type { Detail } from "./looks";
 import { kSymbolRadius_px, kWaypointRadius_px } from "./shapes";
 import { clearanceOf, type Sight } from "./sights";
@@ -60,6 +60,8 @@ export interface Labelled {
   leaders: readonly LeaderSight[];
   waypoints: readonly WaypointSight[];
   detail: Detail;
+  /** What lies over the map. */
+  covers: () => readonly Box[];
 }
 
 interface Shown {
@@ -99,7 +101,7 @@ export class FleetLabels {
     }
   }
 
-  private place({ uavs, leaders, waypoints, detail }: Labelled, now_ms: number): void {
+  private place({ uavs, leaders, waypoints, detail, covers }: Labelled, now_ms: number): void {
     const planned_id = this.store.planned_id.peek();
     const candidates: Candidate[] = [
       ...uavs.map((sight) => ({
@@ -124,6 +126,7 @@ export class FleetLabels {
     const labels = placeLabels(
       captions.map((caption) => this.request(caption)),
       this.placed,
+      covers(),
     );
     this.placed = new Map(labels.map((label) => [label.key, label]));
     this.shown = labels.flatMap((label) => {

@@ -4,6 +4,7 @@ import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import type { LocalFrame } from "../units/geodesy";
 import { identityOf, type Colours } from "./colours";
+import { coversOf } from "./covers";
 import { drawCylinders } from "./cylinders";
 import { FleetLabels, type LeaderSight, type WaypointSight } from "./fleet_labels";
 import { layers, trails_of } from "./layers";
@@ -45,7 +46,7 @@ export class FleetLayer {
   private looks: Looks | null = null;
 
   constructor(
-    map: LeafletMap,
+    private readonly map: LeafletMap,
     private readonly store: Store,
     private readonly trails: Trails,
   ) {
@@ -105,12 +106,11 @@ export class FleetLayer {
     this.drawGhosts(scene);
     this.drawSymbols(scene);
     if (detail === "full") drawTags(context, pairs, colours, scene.texts);
-    if (layers.labels.shown.peek())
-      scene.labels.draw(
-        context,
-        { uavs: visible, leaders, waypoints: this.waypoints(view, frame), detail },
-        now_ms,
-      );
+    if (layers.labels.shown.peek()) {
+      const waypoints = this.waypoints(view, frame);
+      const covers = () => coversOf(this.map.getContainer());
+      scene.labels.draw(context, { uavs: visible, leaders, waypoints, detail, covers }, now_ms);
+    }
   }
 
   private looksFor(colours: Colours): Looks {

@@ -99,6 +99,7 @@ export class FleetMap implements MapAccess {
 
   fit(): void {
     this.to_fit = true;
+    this.drawAtOnce();
   }
 
   centre(place: L.LatLng): void {
@@ -213,7 +214,7 @@ export class FleetMap implements MapAccess {
       theme.subscribe(() => {
         this.colours = readColours();
         this.land.paint(this.colours);
-        redraw();
+        this.drawAtOnce();
       }),
       effect(() =>
         showBase(this.leaflet, this.store.hello.value, base_map.value, theme.value, this.base_problem),
@@ -273,6 +274,11 @@ export class FleetMap implements MapAccess {
       this.fleet.align(view);
     }
   };
+
+  private drawAtOnce(): void {
+    this.ground_clock.demand();
+    this.fleet_clock.demand();
+  }
 
   private fitNow(frame: LocalFrame, now_ms: number): void {
     if (!this.camera.fit(frame, now_ms)) return;

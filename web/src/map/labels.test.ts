@@ -55,6 +55,18 @@ test("of two UAVs at one point, both are named", () => {
   expect(placeLabels([request(1, 500, 300), request(2, 500, 300)], new Map())).toHaveLength(2);
 });
 
+test("a label keeps out of what lies over the map", () => {
+  const alone = request(1, 500, 300);
+  const tools = { left: 515, top: 0, right: 600, bottom: 600 };
+  const [label] = placeLabels([alone], new Map(), [tools]);
+  expect(label && overlap(box(label, alone), tools)).toBe(0);
+});
+
+test("what is wholly covered has no label", () => {
+  const all = { left: 0, top: 0, right: 1000, bottom: 600 };
+  expect(placeLabels([request(1, 500, 300)], new Map(), [all])).toEqual([]);
+});
+
 test("a label stays on its side while that is nearly as good", () => {
   const first = placeLabels([request(1, 500, 300)], new Map());
   const left: PlacedLabel = { ...(first[0] as PlacedLabel), side: 1 };

@@ -31,7 +31,8 @@ export interface PlacedLabel {
   side: number;
 }
 
-interface Box {
+/** [px] */
+export interface Box {
   left: number;
   top: number;
   right: number;
@@ -57,13 +58,17 @@ const kAheadCost = 0.3;
 /** A label keeps its side while that is not worse than the best by more than this part of it: no flicker. */
 const kPatience = 0.1;
 
-/** Labels for `requests`, the most important first; those that find no room are left out. */
+/**
+ * Labels for `requests`, the most important first; those that find no room are left out.
+ * @param covers what lies over the map, where nobody could read a label
+ */
 export function placeLabels(
   requests: readonly LabelRequest[],
   earlier: ReadonlyMap<string, PlacedLabel>,
+  covers: readonly Box[] = [],
 ): PlacedLabel[] {
   const symbols = requests.map((r) => around(r.x, r.y, r.clearance * 0.8));
-  const taken: Box[] = [];
+  const taken: Box[] = [...covers];
   const placed: PlacedLabel[] = [];
   requests.forEach((request, i) => {
     const obstacles = [...taken, ...symbols.filter((_, j) => j !== i)];

@@ -25,6 +25,14 @@ test("what has changed is drawn soon, also where nothing moves", () => {
   expect(clock.isDue(1030, 30)).toBe(true);
 });
 
+test("another view is drawn at once, and once", () => {
+  const clock = drawnAndSeenAfter(10);
+  clock.demand();
+  expect(clock.isDue(1011, 30)).toBe(true);
+  clock.drawn(1011);
+  expect(clock.isDue(1012, 30)).toBe(false);
+});
+
 test("where drawing is slow, half of the time is left to everything else", () => {
   expect(fleetInterval_ms(drawnAndSeenAfter(80), 100)).toBe(160);
   expect(fleetInterval_ms(drawnAndSeenAfter(500), 100)).toBe(200);

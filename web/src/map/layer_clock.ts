@@ -20,6 +20,7 @@ export class LayerClock {
   old = true;
   /** From one frame of the screen to the next, when this layer was drawn in it [ms]. */
   cost_ms = 0;
+  private demanded = false;
   private drawn_ms = -Infinity;
   private just_drawn = false;
 
@@ -29,12 +30,17 @@ export class LayerClock {
     this.just_drawn = false;
   }
 
+  /** Another view altogether: what was drawn would be seen to be wrong until the layer is due. */
+  demand(): void {
+    this.old = this.demanded = true;
+  }
+
   isDue(now_ms: number, interval_ms: number): boolean {
-    return now_ms - this.drawn_ms >= interval_ms;
+    return this.demanded || now_ms - this.drawn_ms >= interval_ms;
   }
 
   drawn(now_ms: number): void {
-    this.old = false;
+    this.old = this.demanded = false;
     this.drawn_ms = now_ms;
     this.just_drawn = true;
   }

@@ -7,10 +7,10 @@ import { kAltitudeRange_m } from "./path_plan";
 import type { Planner } from "./planner";
 import { profileOf, type Profile } from "./profile";
 
-const kHeight_px = 132;
+const kHeight_px = 142;
 /** The first waypoint does not lie on the numbers of the axis. */
 const kInset_px = 10;
-const kMargin_px = { left: 46, right: 24, top: 16, bottom: 20 };
+const kMargin_px = { left: 46, right: 24, top: 26, bottom: 20 };
 const kLeastSpan_m = 200;
 /** A drag gives round numbers. */
 const kDragStep_m = 10;

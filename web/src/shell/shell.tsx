@@ -17,8 +17,8 @@ import { TopBar } from "./top_bar";
 /** One screen: the map under everything, panels around it. The part that no panel covers is the map's free area. */
 export function Shell({ station }: PanelProps) {
   const { store } = station;
-  const free = useRef<HTMLDivElement>(null);
-  const freeArea = useCallback(() => free.current?.getBoundingClientRect() ?? new DOMRect(), []);
+  const in_sight = useRef<HTMLDivElement>(null);
+  const freeArea = useCallback(() => in_sight.current?.getBoundingClientRect() ?? new DOMRect(), []);
   useEffect(listenForShortcuts, []);
   const stale = store.isStale(store.now_ms.value) && store.fleet.motion !== null;
   return (
@@ -31,7 +31,8 @@ export function Shell({ station }: PanelProps) {
         <div class="over-map">
           <MapPanel station={station} freeArea={freeArea} />
           <ModeCards store={store} />
-          <div class="free" ref={free}>
+          <div class="in-sight" ref={in_sight} />
+          <div class="free">
             {openingProblem(station) === "" && <LinkBanner store={store} retry={station.retry} />}
             <ControlNotices station={station} />
             <FirstRun store={store} />
