@@ -113,7 +113,10 @@ bus::Answer FlightRecorderNode::Obey(const recording_command_t& command) {
 
 bus::Answer FlightRecorderNode::Start() {
   if (wanted_) return bus::Answer::Accepted(status_.reason.empty() ? "it records already" : status_.reason);
-  if (logger_) return bus::Answer::Refused("the last recording is just being ended: try again in a second");
+  if (logger_) {
+    start_when_ended_ = true;
+    return bus::Answer::Accepted("it starts as soon as the last recording is ended");
+  }
   wanted_ = true;
   told_begin_ = false;
   followed_.reset();
@@ -124,6 +127,7 @@ bus::Answer FlightRecorderNode::Start() {
 }
 
 bus::Answer FlightRecorderNode::Stop(const std::string& by) {
+  start_when_ended_ = false;
   if (!wanted_) return bus::Answer::Accepted("it was not recording");
   wanted_ = false;
   TellEnd(by.empty() ? "stopped by an operator" : "stopped by " + by);
@@ -198,6 +202,7 @@ void FlightRecorderNode::LoggerEnded(const std::string& how) {
   if (!wanted_) {
     Publish();
     recording_.reset();
+    if (std::exchange(start_when_ended_, false)) Start();
     return;
   }
   // It may have failed before the very last byte of the disk was taken.

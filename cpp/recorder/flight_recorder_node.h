@@ -88,7 +88,8 @@ class FlightRecorderNode {
   std::optional<std::string> fleet_scenario_;  ///< and what it flies; none: no fleet yet
   std::optional<std::string> followed_;        ///< the same, as this recording has it
 
-  bool wanted_ = false;  ///< by the operator
+  bool wanted_ = false;            ///< by the operator
+  bool start_when_ended_ = false;  ///< wanted again while lcm-logger still writes the last of a recording
   recording_status_t status_;
   std::unique_ptr<Recording> recording_;
   std::unique_ptr<Recording> last_recording_;  ///< until lcm-logger has let go of it

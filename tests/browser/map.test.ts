@@ -41,6 +41,8 @@ test("a threat is amber, then red, with lines to the closest point of approach",
   station.start("fleet-simulator", "formation-controller", "collision-monitor");
   await until(async () => expect(await screen.row(2).count()).toBe(1), 30_000);
   await until(async () => expect((await screen.uav(2)).level).toBe("Caution"), 30_000);
+  // UAV1, 1 km farther from the stranger, is warned some seconds later.
+  expect((await screen.uav(1)).level).toBe("Clear");
   await screen.page.keyboard.press("f");
   await until(async () => expect(await pixels("fleet", "caution")).toBeGreaterThan(400));
   await menu().click();
@@ -49,7 +51,6 @@ test("a threat is amber, then red, with lines to the closest point of approach",
   await until(async () => expect(await pixels("fleet", "caution")).toBeLessThan(with_lines - 20));
   await layer("Closest points of threats").check();
   await screen.page.keyboard.press("Escape");
-  expect((await screen.uav(1)).level).toBe("Clear");
   await until(async () => expect((await screen.uav(2)).level).toBe("Warning"), 30_000);
   await until(async () => expect(await pixels("fleet", "warning")).toBeGreaterThan(400));
   await screen.page.screenshot({

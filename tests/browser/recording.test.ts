@@ -80,12 +80,9 @@ test("the operator stops it and starts another one", async () => {
   await says("Not recording");
   await until(async () => expect(await menu(ada).innerText()).toContain("stopped by"));
   await ada.picture("recording-stopped", 1280, 720, "dark");
-  // Refused for as long as lcm-logger is writing the last of it.
-  await until(async () => {
-    if (await ada.button("Start recording").isVisible()) await ada.button("Start recording").click();
-    expect(await pill(ada).innerText()).toContain("Rec");
-    expect(await pill(ada).innerText()).not.toContain("Not");
-  });
+  // At once: lcm-logger may still be writing the last of it.
+  await ada.button("Start recording").click();
+  await says("Rec");
   await ada.page.keyboard.press("Escape");
 });
 

@@ -258,6 +258,21 @@ TEST_F(RecorderTest, ObeysTheOperator) {
   EXPECT_NE(status_.recording, before);
 }
 
+TEST_F(RecorderTest, StartsAsSoonAsTheLastRecordingHasEnded) {
+  Process recorder(Command());
+  ASSERT_TRUE(IsRecording()) << recorder.output();
+  const std::string before = status_.recording;
+  const pid_t writing = Logger();
+  ASSERT_EQ(kill(writing, SIGSTOP), 0);
+  EXPECT_EQ(Record({"stop"}).exit_code, 0);
+  const Finished start = Record({"start"});
+  EXPECT_EQ(start.exit_code, 0) << start.output;
+  EXPECT_NE(start.output.find("as soon as the last recording is ended"), std::string::npos) << start.output;
+  ASSERT_EQ(kill(writing, SIGCONT), 0);
+  ASSERT_TRUE(IsRecording()) << recorder.output();
+  EXPECT_NE(status_.recording, before);
+}
+
 TEST_F(RecorderTest, KeepsRoomOnTheDiskAndSaysWhyItDoesNotRecord) {
   Process recorder(Command({"--keep-free-gb", "1000000"}));
   ASSERT_TRUE(HearsStatus(recording_status_t::INTERRUPTED, [](const recording_status_t& status) {

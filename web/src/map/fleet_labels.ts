@@ -1,7 +1,7 @@
 /** The texts beside symbols. Places are chosen a few times a second; in between, labels move with their symbols. */
 import type { Waypoint } from "../link/messages";
 import type { Store } from "../state/store";
-import { duration } from "../units/format";
+import { lostText } from "../panels/mode_text";
 import { altitudeAbove, speed } from "../units/quantities";
 import type { Colours } from "./colours";
 import { placeLabels, type Box, type LabelRequest, type PlacedLabel } from "./labels";
@@ -146,7 +146,7 @@ export class FleetLabels {
       quiet: false,
       name: this.store.callsign(sight.id),
       data: sight.lost
-        ? `lost ${duration(this.store.fleet.downlinkAge_s(sight.id, now_ms))}`
+        ? lostText(this.store.fleet.downlinkAge_s(sight.id, now_ms))
         : `${altitudeAbove(sight.place.up_m)}  ${speed.full(sight.speed_m_s)}`,
       course_rad: sight.course_rad,
       clearance_px: clearanceOf(sight),

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { endOf, sameWords, withLossAge } from "./mode_text";
+import { endOf, lostText, sameWords, withLossAge } from "./mode_text";
 
 describe("the text of a mode", () => {
   it("tells how long ago a link was lost", () => {
@@ -9,6 +9,14 @@ describe("the text of a mode", () => {
     expect(withLossAge("climbing 200 m: link of UAV3, UAV5 lost; no altitude is free", 4)).toBe(
       "climbing 200 m: link of UAV3, UAV5 lost 4 s ago; no altitude is free",
     );
+  });
+
+  it("tells that it is heard again before it counts as restored", () => {
+    expect(withLossAge("descending 87 m: link of UAV1 lost", 0.4)).toBe(
+      "descending 87 m: link of UAV1 lost, heard again",
+    );
+    expect(lostText(0.4)).toBe("lost, heard again");
+    expect(lostText(94)).toBe("lost 1 min 34 s");
   });
 
   it("is as it came when nothing is lost, or its age is not known", () => {

@@ -136,6 +136,7 @@ function MarkerForm({ commands }: { commands: Commands }) {
       <input
         id={id}
         ref={field}
+        class="field"
         type="text"
         autocomplete="off"
         placeholder="What is to be noted"
