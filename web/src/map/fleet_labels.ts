@@ -82,6 +82,11 @@ export class FleetLabels {
     private readonly texts: TextImages,
   ) {}
 
+  /** They were placed for another view. */
+  placeAnew(): void {
+    this.placed_ms = -Infinity;
+  }
+
   draw(context: CanvasRenderingContext2D, labelled: Labelled, now_ms: number): void {
     if (now_ms - this.placed_ms > kReplace_ms) {
       this.placed_ms = now_ms;

@@ -61,6 +61,10 @@ export class FleetLayer {
     this.overlay.align(view);
   }
 
+  placeLabelsAnew(): void {
+    this.looks?.labels.placeAnew();
+  }
+
   /** Of those that were drawn last. */
   get fastest_m_s(): number {
     return this.sights.fastest_m_s;

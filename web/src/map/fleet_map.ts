@@ -278,6 +278,7 @@ export class FleetMap implements MapAccess {
   private drawAtOnce(): void {
     this.ground_clock.demand();
     this.fleet_clock.demand();
+    this.fleet.placeLabelsAnew();
   }
 
   private fitNow(frame: LocalFrame, now_ms: number): void {
