@@ -41,8 +41,8 @@ class NetemDemo : public ::testing::Test {
 };
 
 TEST_F(NetemDemo, FindsEachDirectionOfARealWireThatIsCut) {
-  const Finished ended = Run("1,all,both,11,,\n18,all,down,11,,\n35,all,up,11,,\n50,none,both,6,,\n",
-                             {"--cuts-only"});
+  const Finished ended =
+      Run("1,all,both,11,,\n18,all,down,11,,\n35,all,up,11,,\n50,none,both,6,,\n", {"--cuts-only"});
   ASSERT_EQ(ended.exit_code, 0) << ended.output;
   const auto summary = DropReportIn(ended.output)["summary"];
   EXPECT_EQ(summary["found"], 15) << ended.output;
