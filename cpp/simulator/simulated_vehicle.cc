@@ -39,7 +39,7 @@ SimulatedVehicle::SimulatedVehicle(const config::VehicleConfig& config, bus::Uti
   Hold();
 }
 
-void SimulatedVehicle::FlyTo(bus::Utime utime) {
+void SimulatedVehicle::Hear(bus::Utime utime) {
   uplink_.Receive(utime - 1, [this](bus::Utime arrival, const UplinkMessage& message) {
     if (const auto* command = std::get_if<FlightCommand>(&message)) {
       Obey(arrival, *command);
@@ -51,7 +51,10 @@ void SimulatedVehicle::FlyTo(bus::Utime utime) {
       utime_ - *commanded_ >= kHoldAfter) {
     Hold();
   }
-  state_ = Step(state_, input_, model_, bus::ToSeconds(utime - utime_));
+}
+
+void SimulatedVehicle::ArriveAt(bus::Utime utime, const VehicleState& state) {
+  state_ = state;
   utime_ = utime;
 }
 

@@ -43,6 +43,7 @@ class SimulatedVehicle {
   const VehicleState& state() const { return state_; }
   bus::Utime utime() const { return utime_; }
   const AutopilotInput& input() const { return input_; }
+  const VehicleModel& model() const { return model_; }  ///< as it really is
   bool payload_on() const { return payload_on_; }
 
   const LinkSetting& uplink() const { return uplink_.setting(); }
@@ -53,8 +54,10 @@ class SimulatedVehicle {
   /// The station sends something to it.
   void Send(bus::Utime now, const UplinkMessage& message) { uplink_.Send(now, message); }
 
-  /// Flies on to `utime` in one step. What arrives during the step counts from its beginning.
-  void FlyTo(bus::Utime utime);
+  /// Before a step to `utime`: what arrives during the step counts from its beginning.
+  void Hear(bus::Utime utime);
+  /// After it. A fleet is moved all together (core/fleet_motion.h), so that is not done here.
+  void ArriveAt(bus::Utime utime, const VehicleState& state);
 
   /// It sends its state; returns what the station hears from it at this moment, the newest if it hears
   /// several.

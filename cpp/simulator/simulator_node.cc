@@ -82,7 +82,10 @@ FleetSimulatorNode::Flight::Flight(const SimulatorOptions& options, bus::Utime s
             }),
       roster(bus::Split(MakeRoster(options.scenario, start))),
       roster_sent(roster.size()) {
-  for (std::size_t i = 0; i < fleet.size(); ++i) index[fleet[i].id()] = i;
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    index[fleet[i].id()] = i;
+    motion.Add(fleet[i].state(), fleet[i].input(), fleet[i].model());
+  }
   links.AddTimeline(options.scenario.timeline, start, options.scenario.timeline_repeat_s);
 }
 
@@ -118,17 +121,23 @@ void FleetSimulatorNode::Tick() {
 }
 
 void FleetSimulatorNode::Fly(std::int64_t tick) {
-  flight_->tick = tick;
   const bus::Utime utime = start_utime() + tick * kPeriod;
-  for (SimulatedVehicle& vehicle : flight_->fleet) {
+  flight_->tick = tick;
+  std::vector<SimulatedVehicle>& fleet = flight_->fleet;
+  FleetMotion& motion = flight_->motion;
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    SimulatedVehicle& vehicle = fleet[i];
     const bool payload_before = vehicle.payload_on();
-    vehicle.FlyTo(utime);
+    vehicle.Hear(utime);
+    motion.SetInput(i, vehicle.input());
     if (vehicle.payload_on() != payload_before) {
       events_.Tell(event_t::INFO, vehicle.payload_on() ? "payload_on" : "payload_off",
                    "payload of " + vehicle.callsign() + (vehicle.payload_on() ? " is on" : " is off"),
                    {.vehicle_id = vehicle.id()});
     }
   }
+  if (tick > 0) motion.Step(bus::ToSeconds(kPeriod));  // tick 0 is the start itself
+  for (std::size_t i = 0; i < fleet.size(); ++i) fleet[i].ArriveAt(utime, motion.State(i));
   flight_->links.RunUntil(utime);
 }
 

@@ -15,6 +15,7 @@
 #include "bus/command_inbox.h"
 #include "bus/events.h"
 #include "config/scenario.h"
+#include "core/fleet_motion.h"
 #include "simulator/link_schedule.h"
 #include "simulator/simulated_vehicle.h"
 
@@ -52,6 +53,7 @@ class FleetSimulatorNode {
     bus::Utime start_utime;  ///< also the session on FLEET_ROSTER and FLEET_STATE
     std::int64_t tick = -1;
     std::vector<SimulatedVehicle> fleet;
+    FleetMotion motion;  ///< of the fleet, in the same order
     std::unordered_map<int, std::size_t> index;
     LinkSchedule links;
     std::vector<fleet_roster_t> roster;  ///< in chunks

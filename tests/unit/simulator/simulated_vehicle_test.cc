@@ -33,7 +33,11 @@ struct Flight {
       : vehicle(config, kStart, seed) {}
   bus::Utime now() const { return kStart + tick * kTick; }
   void Fly(int ticks) {
-    for (int i = 0; i < ticks; ++i) vehicle.FlyTo(kStart + ++tick * kTick);
+    for (int i = 0; i < ticks; ++i) {
+      const bus::Utime utime = kStart + ++tick * kTick;
+      vehicle.Hear(utime);
+      vehicle.ArriveAt(utime, Step(vehicle.state(), vehicle.input(), vehicle.model(), bus::ToSeconds(kTick)));
+    }
   }
   template <typename Action>
   void Fly(int ticks, Action&& action) {
