@@ -110,7 +110,7 @@ std::vector<VehicleProximity> FindProximityByBruteForce(const std::vector<Traffi
 
 std::vector<VehicleProximity> FindProximity(const std::vector<Traffic>& fleet, const ProximityRules& rules) {
   return fleet.size() <= kBruteForceUpTo ? FindProximityByBruteForce(fleet, rules)
-                                         : FindProximityByTree(fleet, rules);
+                                         : FindProximityByIndex(fleet, rules);
 }
 
 }  // namespace skein

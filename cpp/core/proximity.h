@@ -88,8 +88,8 @@ std::vector<VehicleProximity> FindProximity(const std::vector<Traffic>& fleet, c
 /// The same by looking at every pair: the answer that the faster searches must give exactly.
 std::vector<VehicleProximity> FindProximityByBruteForce(const std::vector<Traffic>& fleet,
                                                         const ProximityRules& rules);
-/// The same by a tree of boxes (core/proximity_tree.h).
-std::vector<VehicleProximity> FindProximityByTree(const std::vector<Traffic>& fleet,
-                                                  const ProximityRules& rules);
+/// The same by boxes within boxes (core/proximity_index.h).
+std::vector<VehicleProximity> FindProximityByIndex(const std::vector<Traffic>& fleet,
+                                                   const ProximityRules& rules);
 
 }  // namespace skein

@@ -94,50 +94,6 @@ double LeastTauBound(const Traffic& uav, const ProximityTree::Box& box, double d
   return (range_m - d_mod_m * d_mod_m / range_m) / std::max(closing_m_s, min_closing_m_s);
 }
 
-std::vector<VehicleProximity> FindProximityByTree(const std::vector<Traffic>& fleet,
-                                                  const ProximityRules& rules) {
-  const ProximityTree tree(fleet);
-  const ProximityLimits widest = rules.Widest();
-  std::vector<VehicleProximity> result;
-  result.reserve(fleet.size());
-  for (const Traffic& self : fleet) {
-    VehicleProximity& found = result.emplace_back();
-    found.id = self.id;
-
-    std::pair<double, int> nearest{kNobody, 0};
-    int nearest_place = -1;
-    tree.Search([&](const ProximityTree::Box& box) { return LeastRange(self.position, box.position); },
-                [&] { return nearest.first; },
-                [&](int place) {
-                  const Traffic& other = fleet[place];
-                  if (&other == &self) return;
-                  const std::pair candidate{MotionBetween(self, other).range_m, other.id};
-                  if (candidate >= nearest) return;
-                  nearest = candidate;
-                  nearest_place = place;
-                });
-    if (nearest_place >= 0) {
-      found.nearest = NearestUav{nearest.second, Separate(self.position, fleet[nearest_place].position)};
-    }
-
-    std::pair<double, int> least{kNobody, 0};
-    tree.Search(
-        [&](const ProximityTree::Box& box) {
-          return LeastTauBound(self, box, widest.d_mod_m, widest.min_closing_m_s);
-        },
-        [&] { return least.first; },
-        [&](int place) {
-          const Traffic& other = fleet[place];
-          if (&other == &self) return;
-          const ProximityLimits& limits = rules.Between(self, other);
-          const auto tau_s = Tau(MotionBetween(self, other), limits.d_mod_m, limits.min_closing_m_s);
-          if (tau_s) least = std::min(least, std::pair{*tau_s, other.id});
-        });
-    if (least.second != 0) found.least_tau = LeastTau{least.second, least.first};
-  }
-  return result;
-}
-
 std::vector<std::pair<int, int>> FindConflictsByTree(const std::vector<Traffic>& fleet,
                                                      const ProximityRules& rules) {
   // Every cylinder as large as the widest limits and the most uncertain pair could make it.

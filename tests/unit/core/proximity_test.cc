@@ -165,25 +165,25 @@ TEST_P(Proximity, OfManyAtOnePointNamesTheSmallestOther) {
   }
 }
 
-constexpr const char* kSearchNames[] = {"Chosen", "BruteForce", "Tree"};
+constexpr const char* kSearchNames[] = {"Chosen", "BruteForce", "Index"};
 INSTANTIATE_TEST_SUITE_P(Searches, Proximity,
-                         ::testing::Values(&FindProximity, &FindProximityByBruteForce, &FindProximityByTree),
+                         ::testing::Values(&FindProximity, &FindProximityByBruteForce, &FindProximityByIndex),
                          [](const auto& info) { return std::string(kSearchNames[info.index]); });
 
 using MakeFleet = std::vector<Traffic> (*)(int, std::mt19937&);
 
-class ProximityTreeSearch : public ::testing::TestWithParam<MakeFleet> {};
+class ProximityIndexSearch : public ::testing::TestWithParam<MakeFleet> {};
 
-TEST_P(ProximityTreeSearch, EqualsBruteForceToTheLastBit) {
+TEST_P(ProximityIndexSearch, EqualsBruteForceToTheLastBit) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::cout << "seed " << seed << "\n";
   std::mt19937 random(seed);
   const ProximityRules rules = testing::MixedRules();
-  for (const int count : {0, 1, 2, 3, 8, 9, 17, 60, 150, 150, 150, 400}) {
+  for (const int count : {0, 1, 2, 3, 7, 8, 9, 17, 60, 64, 65, 150, 150, 150, 400, 600}) {
     const std::vector<Traffic> fleet = GetParam()(count, random);
     const auto expected = FindProximityByBruteForce(fleet, rules);
-    const auto found = FindProximityByTree(fleet, rules);
+    const auto found = FindProximityByIndex(fleet, rules);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
       ASSERT_EQ(found[i], expected[i]) << "UAV " << expected[i].id << " of " << count;
@@ -192,10 +192,19 @@ TEST_P(ProximityTreeSearch, EqualsBruteForceToTheLastBit) {
 }
 
 constexpr const char* kFleetNames[] = {"Spread", "Clustered", "Tied"};
-INSTANTIATE_TEST_SUITE_P(Fleets, ProximityTreeSearch,
+INSTANTIATE_TEST_SUITE_P(Fleets, ProximityIndexSearch,
                          ::testing::Values(&testing::SpreadFleet, &testing::ClusteredFleet,
                                            &testing::TiedFleet),
                          [](const auto& info) { return std::string(kFleetNames[info.index]); });
+
+TEST(ProximityIndex, OnSeveralProcessorsEqualsBruteForce) {
+  const unsigned seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const std::vector<Traffic> fleet = testing::ClusteredFleet(5000, random);
+  const ProximityRules rules = testing::MixedRules();
+  EXPECT_EQ(FindProximityByIndex(fleet, rules), FindProximityByBruteForce(fleet, rules));
+}
 
 TEST(ProximityTree, LooksAtFewOfALargeFleet) {
   std::mt19937 random(1);
