@@ -1,4 +1,4 @@
-# Heavy headers are parsed once for all files instead of once for each, which takes half of the time of a build. Every source still
+# Heavy headers are parsed once for all files instead of once for each. Every source still
 # includes what it uses: clang-tidy (scripts/test) reads them without this. CMAKE_DISABLE_PRECOMPILE_HEADERS switches it off.
 set(SKEIN_STANDARD_HEADERS <algorithm> <chrono> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory> <optional> <set>
     <sstream> <stdexcept> <string> <thread> <utility> <vector>)
