@@ -116,7 +116,8 @@ test("a refusal is kept for the person", async () => {
   expect(player.refusal.value).toBe("It is still being read.");
 });
 
-test("after a lost connection it goes on where it was", () => {
+// Of two messages that wait to be sent the newer replaces the older: "opening" may never be heard.
+test.each([true, false])("after a lost connection it goes on where it was; opening heard: %s", (heard) => {
   const { store, player, asked, say } = open();
   say({ state: "playing", speed: 2, loop: [40, 90] });
   vi.advanceTimersByTime(1000);
@@ -124,7 +125,7 @@ test("after a lost connection it goes on where it was", () => {
   vi.advanceTimersByTime(5000);
   expect(player.at_s(performance.now())).toBeCloseTo(52, 3);
   store.connection.value = { kind: "open" };
-  say({ state: "opening", t_s: 0, speed: 1, loop: null });
+  if (heard) say({ state: "opening", t_s: 0, speed: 1, loop: null });
   expect(asked).toEqual([]);
   say({ state: "paused", t_s: 0, speed: 1, loop: null });
   expect(asked).toEqual([

@@ -29,7 +29,8 @@ export class Player {
   private seeking = false;
   /** Where a lost connection has left us. */
   private left: PlaybackMessage | null = null;
-  private opened_again = false;
+  /** The last that the connection said which was lost. */
+  private lost_with: PlaybackMessage | null = null;
 
   constructor(
     private readonly store: Store,
@@ -75,13 +76,13 @@ export class Player {
     if (playback === null) return;
     if (this.store.connection.value.kind !== "open") {
       const under_way = ["paused", "playing", "ended"].includes(playback.state);
-      this.opened_again = false;
+      this.lost_with = playback;
       if (under_way) this.left ??= { ...playback, t_s: untracked(() => this.at_s(performance.now())) };
       return;
     }
-    if (playback.state === "opening") this.opened_again = true;
+    // Its first word need not be "opening": newer words replace older ones on the way.
     const left = this.left;
-    if (left === null || !this.opened_again || playback.state !== "paused") return;
+    if (left === null || playback === this.lost_with || playback.state !== "paused") return;
     this.left = null;
     this.seek(left.t_s);
     void this.ask({ action: "speed", speed: left.direction * left.speed });
