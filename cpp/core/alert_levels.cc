@@ -108,10 +108,12 @@ std::vector<std::pair<int, int>> FindConflictsByBruteForce(const std::vector<Tra
   return result;
 }
 
-std::vector<std::pair<int, int>> FindConflicts(const std::vector<Traffic>& fleet,
-                                               const ProximityRules& rules) {
-  return fleet.size() <= kBruteForceUpTo ? FindConflictsByBruteForce(fleet, rules)
-                                         : FindConflictsByTree(fleet, rules);
+std::vector<std::pair<int, int>> FindConflicts(const ProximityIndex& index) {
+  const std::vector<Traffic>& fleet = index.fleet();
+  const ProximityRules& rules = index.rules();
+  return index.FindPairs([&](int i, int j) {
+    return Assess(fleet[i], fleet[j], rules.Between(fleet[i], fleet[j])) != AlertLevel::kClear;
+  });
 }
 
 AlertLevel AlertLevels::PairState::level() const {
@@ -145,11 +147,12 @@ void AlertLevels::Update(PairState& state, std::int64_t utime, AlertLevel now, A
   state.worst = std::max(state.worst, state.level());
 }
 
-std::vector<AlertChange> AlertLevels::Sweep(std::int64_t utime, const std::vector<Traffic>& fleet,
-                                            const ProximityRules& rules) {
+std::vector<AlertChange> AlertLevels::Sweep(std::int64_t utime, const ProximityIndex& index) {
+  const std::vector<Traffic>& fleet = index.fleet();
+  const ProximityRules& rules = index.rules();
   std::unordered_map<int, const Traffic*> by_id;
   for (const Traffic& uav : fleet) by_id[uav.id] = &uav;
-  for (const auto& [i, j] : FindConflicts(fleet, rules)) {
+  for (const auto& [i, j] : FindConflicts(index)) {
     const auto [first_id, second_id] = std::minmax(fleet[i].id, fleet[j].id);
     pairs_.try_emplace(Key(first_id, second_id));
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/proximity.h"
+#include "core/proximity_index.h"
 
 namespace skein {
 
@@ -29,12 +30,10 @@ bool EntersCylinder(const Eigen::Vector3d& position, const Eigen::Vector3d& velo
 AlertLevel Assess(const Traffic& one, const Traffic& other, const ProximityLimits& limits);
 
 /// Places in the fleet (first < second, in order) of all pairs whose Assess() is not kClear.
-std::vector<std::pair<int, int>> FindConflicts(const std::vector<Traffic>& fleet,
-                                               const ProximityRules& rules);
+std::vector<std::pair<int, int>> FindConflicts(const ProximityIndex& index);
+/// The same by looking at every pair: the answer that the faster search must give exactly.
 std::vector<std::pair<int, int>> FindConflictsByBruteForce(const std::vector<Traffic>& fleet,
                                                            const ProximityRules& rules);
-std::vector<std::pair<int, int>> FindConflictsByTree(const std::vector<Traffic>& fleet,
-                                                     const ProximityRules& rules);
 
 /// A pair that has a level.
 struct PairAlert {
@@ -59,11 +58,11 @@ struct AlertChange {
 /// at any rate of sweeps. Only pairs that are on, or were lately assessed so, are remembered.
 class AlertLevels {
  public:
-  /// One sweep of a fleet that is all at one instant. @param utime of that instant [us], rising.
+  /// One sweep of the fleet in the index, which is all at one instant. @param utime of that instant [us],
+  /// rising.
   /// @return the pairs whose level has changed, by ids. Those with a UAV that is gone from the fleet are
   /// clear.
-  std::vector<AlertChange> Sweep(std::int64_t utime, const std::vector<Traffic>& fleet,
-                                 const ProximityRules& rules);
+  std::vector<AlertChange> Sweep(std::int64_t utime, const ProximityIndex& index);
 
   /// The pairs with a level, by ids.
   std::vector<PairAlert> active() const;

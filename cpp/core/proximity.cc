@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/proximity_index.h"
+
 namespace skein {
 namespace {
 
@@ -62,7 +64,8 @@ Separation Separate(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
 }
 
 PairMotion MotionBetween(const Traffic& one, const Traffic& other) {
-  // Written out, in this order: the tree's bounds hold to the last bit only if they add up in the same order.
+  // Written out, in this order: what a search leaves out, it leaves out by bounds that add up
+  // in the same order (proximity_lanes.cc).
   const Eigen::Vector3d r = other.position - one.position;
   const Eigen::Vector3d w = other.velocity - one.velocity;
   const double range_m = std::sqrt(r.x() * r.x() + r.y() * r.y() + r.z() * r.z());
@@ -109,8 +112,9 @@ std::vector<VehicleProximity> FindProximityByBruteForce(const std::vector<Traffi
 }
 
 std::vector<VehicleProximity> FindProximity(const std::vector<Traffic>& fleet, const ProximityRules& rules) {
-  return fleet.size() <= kBruteForceUpTo ? FindProximityByBruteForce(fleet, rules)
-                                         : FindProximityByIndex(fleet, rules);
+  ProximityIndex index;
+  index.Load(fleet, rules);
+  return index.FindProximity();
 }
 
 }  // namespace skein

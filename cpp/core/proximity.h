@@ -80,16 +80,11 @@ struct VehicleProximity {
   bool operator==(const VehicleProximity&) const = default;
 };
 
-/// Fleets up to this size are searched by looking at every pair, larger ones by the tree.
-inline constexpr std::size_t kBruteForceUpTo = 48;
-
-/// Nearest other and least Tau of every UAV, in the order of the fleet.
+/// Nearest other and least Tau of every UAV, in the order of the fleet. By an index (core/proximity_index.h),
+/// which who asks again and again keeps.
 std::vector<VehicleProximity> FindProximity(const std::vector<Traffic>& fleet, const ProximityRules& rules);
-/// The same by looking at every pair: the answer that the faster searches must give exactly.
+/// The same by looking at every pair: the answer that the faster search must give exactly.
 std::vector<VehicleProximity> FindProximityByBruteForce(const std::vector<Traffic>& fleet,
                                                         const ProximityRules& rules);
-/// The same by boxes within boxes (core/proximity_index.h).
-std::vector<VehicleProximity> FindProximityByIndex(const std::vector<Traffic>& fleet,
-                                                   const ProximityRules& rules);
 
 }  // namespace skein

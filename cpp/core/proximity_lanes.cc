@@ -1,80 +1,109 @@
 #include "core/proximity_lanes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "core/processors.h"
 
 namespace skein {
 namespace {
 
-constexpr double kNobody = std::numeric_limits<double>::infinity();
+/// More than rounding can take away from any of the numbers compared here.
+constexpr double kHair = 1e-12;
 
-/// Eq. (3) of [1], without a branch: all of it is worked out, and then what holds is taken.
-[[gnu::always_inline]] inline double TauOf(double range_m, double closing_m_s, TauLimits limits) {
-  const double outside =
-      (range_m - limits.d_mod_m * limits.d_mod_m / range_m) / std::max(closing_m_s, limits.min_closing_m_s);
-  return range_m <= limits.d_mod_m ? 0 : outside;
+/// Eq. (3) of [1] says for d > D_mod that Tau <= T where d^2 - D_mod^2 <= T max(-d' d, V_min d), and -d' d is
+/// -(r . w). Of a box the least d and the largest -(r . w) and |w| are known, so that two bounds of -d' d
+/// hold: -(r . w), and |w| d. All squared where a root would be needed.
+[[gnu::always_inline]] inline bool Reaches(double range_m2, double closing_product, double speed_m2,
+                                           const PairReach& reach) {
+  const double outside_m2 = range_m2 * (1 - kHair) - reach.d_mod_m2;
+  const double in_time_m2 = reach.tau_s * (1 + kHair);
+  const double outside_m4 = outside_m2 * outside_m2;
+  const double in_time_m4 = in_time_m2 * in_time_m2 * range_m2;
+  const bool near = range_m2 <= reach.range_m2 * (1 + kHair);
+  const bool within = outside_m2 <= 0;
+  const bool fast =
+      (outside_m2 <= in_time_m2 * closing_product) & (outside_m4 <= in_time_m4 * speed_m2 * (1 + kHair));
+  const bool slow = outside_m4 <= in_time_m4 * reach.min_closing_m2 * (1 + kHair);
+  return near | ((closing_product > 0) & (within | fast | slow));
 }
 
 }  // namespace
 
 SKEIN_FOR_EACH_PROCESSOR
-void LookAt(const EightUavs& uavs, const Looker& looker, Looks& looks) {
+bool MayMatter(const EightLookers& lookers, const EightBoxes& boxes, std::size_t box, Marks& to) {
+  const EightUavs& uavs = *lookers.uavs;
+  const Reach& own = lookers.own;
+  const Reach& others = lookers.others;
+  const double group = boxes.group[box];
+  std::int64_t any = 0;
   SKEIN_EACH_BY_ITSELF
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const double x = uavs.position[0][i] - looker.position[0];
-    const double y = uavs.position[1][i] - looker.position[1];
-    const double z = uavs.position[2][i] - looker.position[2];
-    const double u = uavs.velocity[0][i] - looker.velocity[0];
-    const double v = uavs.velocity[1][i] - looker.velocity[1];
-    const double w = uavs.velocity[2][i] - looker.velocity[2];
-    const double range_m = std::sqrt(x * x + y * y + z * z);
-    const double closing_m_s = -(x * u + y * v + z * w) / range_m;
-    const bool ours = uavs.group[i] == looker.group && looker.group > 0;
-    const TauLimits limits{ours ? looker.own.d_mod_m : looker.others.d_mod_m,
-                           ours ? looker.own.min_closing_m_s : looker.others.min_closing_m_s};
-    const double tau_s = TauOf(range_m, closing_m_s, limits);
-    const double closing_tau_s = closing_m_s > 0 ? tau_s : kNobody;
-    looks.range_m[i] = range_m;
-    looks.tau_s[i] = range_m == 0 ? 0 : closing_tau_s;
+    double range_m2 = 0;
+    double least_product = 0;
+    double speed_m2 = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double low = boxes.low[axis][box] - uavs.position[axis][i];
+      const double high = boxes.high[axis][box] - uavs.position[axis][i];
+      const double low_speed = boxes.velocity_low[axis][box] - uavs.velocity[axis][i];
+      const double high_speed = boxes.velocity_high[axis][box] - uavs.velocity[axis][i];
+      const double gap = std::max(std::max(low, -high), 0.0);
+      range_m2 += gap * gap;
+      // Interval arithmetic: the least that r . w can be on this axis.
+      least_product += std::min(std::min(low * low_speed, low * high_speed),
+                                std::min(high * low_speed, high * high_speed));
+      speed_m2 += std::max(low_speed * low_speed, high_speed * high_speed);
+    }
+    const bool ours = (group == uavs.group[i]) & (group > 0);
+    const bool several = group == kSeveralGroups;
+    const bool to_own = (ours | several) & Reaches(range_m2, -least_product, speed_m2, own.Of(i));
+    const bool to_others = !ours & Reaches(range_m2, -least_product, speed_m2, others.Of(i));
+    to[i] = to_own | to_others ? 1 : 0;
+    any |= to[i];
   }
+  return any != 0;
 }
 
 SKEIN_FOR_EACH_PROCESSOR
-void LookAt(const EightBoxes& boxes, const Looker& looker, Looks& looks) {
+bool MayMatter(const EightLookers& lookers, std::size_t looker, const EightUavs& uavs, Marks& who) {
+  const EightUavs& from = *lookers.uavs;
+  const double x = from.position[0][looker], y = from.position[1][looker], z = from.position[2][looker];
+  const double u = from.velocity[0][looker], v = from.velocity[1][looker], w = from.velocity[2][looker];
+  const double group = from.group[looker];
+  const PairReach own = lookers.own.Of(looker);
+  const PairReach others = lookers.others.Of(looker);
+  std::int64_t any = 0;
   SKEIN_EACH_BY_ITSELF
   for (std::size_t i = 0; i < kLanes; ++i) {
-    double gap[3];
-    double product[3];
-    double speed_squared = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = boxes.low[axis][i] - looker.position[axis];
-      const double high = boxes.high[axis][i] - looker.position[axis];
-      const double low_speed = boxes.velocity_low[axis][i] - looker.velocity[axis];
-      const double high_speed = boxes.velocity_high[axis][i] - looker.velocity[axis];
-      gap[axis] = std::max(std::max(low, -high), 0.0);
-      // Interval arithmetic: the least that r . w can be on this axis.
-      product[axis] = std::min(std::min(low * low_speed, low * high_speed),
-                               std::min(high * low_speed, high * high_speed));
-      speed_squared += std::max(low_speed * low_speed, high_speed * high_speed);
+    const double rx = uavs.position[0][i] - x;
+    const double ry = uavs.position[1][i] - y;
+    const double rz = uavs.position[2][i] - z;
+    const double wx = uavs.velocity[0][i] - u;
+    const double wy = uavs.velocity[1][i] - v;
+    const double wz = uavs.velocity[2][i] - w;
+    const double range_m2 = rx * rx + ry * ry + rz * rz;
+    const double closing_product = -(rx * wx + ry * wy + rz * wz);
+    const double speed_m2 = wx * wx + wy * wy + wz * wz;
+    const bool ours = (uavs.group[i] == group) & (group > 0);
+    const bool matters = (ours & Reaches(range_m2, closing_product, speed_m2, own)) |
+                         (!ours & Reaches(range_m2, closing_product, speed_m2, others));
+    who[i] = matters ? 1 : 0;
+    any |= who[i];
+  }
+  return any != 0;
+}
+
+SKEIN_FOR_EACH_PROCESSOR
+void Gaps(const EightBoxes& from, std::size_t box, const EightBoxes& to, Lanes& square_m2) {
+  SKEIN_EACH_BY_ITSELF
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    double sum_m2 = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double above = to.low[axis][i] - from.high[axis][box];
+      const double below = from.low[axis][box] - to.high[axis][i];
+      const double gap = std::max(std::max(above, below), 0.0);
+      sum_m2 += gap * gap;
     }
-    const double range_m = std::sqrt(gap[0] * gap[0] + gap[1] * gap[1] + gap[2] * gap[2]);
-    const double closest = -(product[0] + product[1] + product[2]);
-    // Nobody closes faster than the relative speed either; rounding may break that law by a hair.
-    constexpr double kHair = 1 + 1e-12;
-    const double closing_m_s = std::min(closest / range_m, std::sqrt(speed_squared) * kHair);
-    const bool ours = boxes.group[i] == looker.group && looker.group > 0;
-    const bool strangers = boxes.group[i] >= 0 && !ours;
-    const TauLimits limits{
-        ours ? looker.own.d_mod_m : (strangers ? looker.others.d_mod_m : looker.widest.d_mod_m),
-        ours ? looker.own.min_closing_m_s
-             : (strangers ? looker.others.min_closing_m_s : looker.widest.min_closing_m_s)};
-    const double tau_s = TauOf(range_m, closing_m_s, limits);
-    const double closing_tau_s = closest > 0 ? tau_s : kNobody;
-    looks.range_m[i] = range_m;
-    looks.tau_s[i] = range_m == 0 ? 0 : closing_tau_s;
+    square_m2[i] = sum_m2;
   }
 }
 

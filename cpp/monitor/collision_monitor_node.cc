@@ -231,16 +231,17 @@ std::vector<Traffic> CollisionMonitorNode::Locate(Utime now) const {
 void CollisionMonitorNode::Sweep() {
   const Utime now = bus_.executor().Now();
   const std::vector<Traffic> fleet = Locate(now);
+  index_.Load(fleet, membership_.rules());
   std::vector<Notice> notices;
   if (now >= levels_from_) {
-    for (const AlertChange& change : levels_.Sweep(now, fleet, membership_.rules())) {
+    for (const AlertChange& change : levels_.Sweep(now, index_)) {
       const Notice notice = Describe(change, fleet);
       RaiseOrEnd(change, notice);
       const bool worse = change.pair.level > change.before;
       if (worse || change.pair.level == AlertLevel::kClear) notices.push_back(notice);
     }
   }
-  PublishProximity(now, fleet);
+  PublishProximity(now);
   Tell(std::move(notices));
 }
 
@@ -252,7 +253,7 @@ void CollisionMonitorNode::RaiseOrEnd(const AlertChange& change, const Notice& n
   alarms_.Raise({key, pair.level, notice.text, pair.first_id, pair.second_id, notice.formation_id});
 }
 
-void CollisionMonitorNode::PublishProximity(Utime now, const std::vector<Traffic>& fleet) {
+void CollisionMonitorNode::PublishProximity(Utime now) {
   struct Worst {
     AlertLevel level = AlertLevel::kClear;
     int with_id = 0;
@@ -267,7 +268,7 @@ void CollisionMonitorNode::PublishProximity(Utime now, const std::vector<Traffic
   proximity_t message;
   message.utime = now;
   message.sweep = sweep_++;
-  for (const VehicleProximity& found : FindProximity(fleet, membership_.rules())) {
+  for (const VehicleProximity& found : index_.FindProximity()) {
     vehicle_proximity_t& vehicle = message.vehicles.emplace_back();
     vehicle.id = found.id;
     vehicle.level = static_cast<std::int8_t>(worst[found.id].level);

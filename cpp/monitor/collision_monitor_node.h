@@ -55,7 +55,7 @@ class CollisionMonitorNode {
   void CheckLinks();
   void PublishLinks(bus::Utime now);
   void Sweep();
-  void PublishProximity(bus::Utime now, const std::vector<Traffic>& fleet);
+  void PublishProximity(bus::Utime now);
 
   void RaiseOrEnd(const AlertChange& change, const Notice& notice);
 
@@ -72,6 +72,7 @@ class CollisionMonitorNode {
   SilenceWatch silence_;
   CollisionMonitorOptions options_;
   Membership membership_;
+  ProximityIndex index_;  ///< of the sweep that is under way
   AlertLevels levels_;
   std::map<int, WatchedUav> uavs_;
   bus::Utime start_utime_ = 0;         ///< of the flight; 0: no roster yet

@@ -21,6 +21,13 @@ Traffic Uav(int id, const Eigen::Vector3d& position, const Eigen::Vector3d& velo
   return uav;
 }
 
+std::vector<AlertChange> Sweep(AlertLevels& levels, std::int64_t utime, const std::vector<Traffic>& fleet) {
+  const ProximityRules rules;
+  ProximityIndex index;
+  index.Load(fleet, rules);
+  return levels.Sweep(utime, index);
+}
+
 /// R = D_mod = 500 m, H 100 m, Tau 55 / 25 s, V_min 1 m/s.
 AlertLevel AssessStrangers(const Traffic& one, const Traffic& other) {
   return Assess(one, other, StrangerLimits());
@@ -139,18 +146,19 @@ TEST(Assess, IsTheSameWhicheverIsNamedFirst) {
   }
 }
 
-TEST(FindConflicts, ByTreeEqualsBruteForce) {
+TEST(FindConflicts, EqualsBruteForce) {
   const unsigned seed = std::random_device{}();
   std::cout << "seed " << seed << "\n";
   std::mt19937 random(seed);
   const ProximityRules rules = testing::MixedRules();
   std::size_t found = 0;
+  ProximityIndex index;
   for (const int count : {0, 1, 2, 9, 60, 150, 150, 400}) {
     for (const auto make : {&testing::SpreadFleet, &testing::ClusteredFleet, &testing::TiedFleet}) {
       const auto fleet = make(count, random);
       const auto expected = FindConflictsByBruteForce(fleet, rules);
-      ASSERT_EQ(FindConflictsByTree(fleet, rules), expected) << "seed " << seed << " count " << count;
-      ASSERT_EQ(FindConflicts(fleet, rules), expected);
+      index.Load(fleet, rules);
+      ASSERT_EQ(FindConflicts(index), expected) << "seed " << seed << " count " << count;
       found += expected.size();
     }
   }
@@ -163,7 +171,7 @@ class AlertLevelsTest : public ::testing::TestWithParam<int> {
   /// One sweep with the second UAV at x, flying at vx.
   AlertLevel Sweep(double x, double vx = 0) {
     utime_ += kSecond / GetParam();
-    changes_ = levels_.Sweep(utime_, {Uav(1, {0, 0, 0}), Uav(2, {x, 0, 0}, {vx, 0, 0})}, {});
+    changes_ = skein::Sweep(levels_, utime_, {Uav(1, {0, 0, 0}), Uav(2, {x, 0, 0}, {vx, 0, 0})});
     const auto active = levels_.active();
     return active.empty() ? AlertLevel::kClear : active[0].level;
   }
@@ -255,7 +263,7 @@ TEST_P(AlertLevelsTest, TellsAChangeOnceNotPerSweep) {
 
 TEST_P(AlertLevelsTest, ForgetsAPairWhoseUavIsGone) {
   Sweep(499);
-  changes_ = levels_.Sweep(utime_ + kSecond, {Uav(1, {0, 0, 0})}, {});
+  changes_ = skein::Sweep(levels_, utime_ + kSecond, {Uav(1, {0, 0, 0})});
   ASSERT_EQ(changes_.size(), 1u);
   EXPECT_EQ(changes_[0].pair.level, AlertLevel::kClear);
   EXPECT_EQ(changes_[0].before, AlertLevel::kWarning);
@@ -269,7 +277,7 @@ TEST(AlertLevels, AreKeptPerPairOfIds) {
   AlertLevels levels;
   const std::vector<Traffic> fleet{Uav(30, {0, 0, 0}), Uav(2, {100, 0, 0}), Uav(10, {200, 0, 0}),
                                    Uav(4, {9000, 0, 0})};
-  EXPECT_EQ(levels.Sweep(kSecond, fleet, {}).size(), 3u);
+  EXPECT_EQ(Sweep(levels, kSecond, fleet).size(), 3u);
   const auto active = levels.active();
   ASSERT_EQ(active.size(), 3u);
   EXPECT_EQ(std::pair(active[0].first_id, active[0].second_id), std::pair(2, 10));
@@ -279,8 +287,8 @@ TEST(AlertLevels, AreKeptPerPairOfIds) {
 
 TEST(AlertLevels, OfNobodyAreNone) {
   AlertLevels levels;
-  EXPECT_TRUE(levels.Sweep(kSecond, {}, {}).empty());
-  EXPECT_TRUE(levels.Sweep(2 * kSecond, {Uav(1, {0, 0, 0})}, {}).empty());
+  EXPECT_TRUE(Sweep(levels, kSecond, {}).empty());
+  EXPECT_TRUE(Sweep(levels, 2 * kSecond, {Uav(1, {0, 0, 0})}).empty());
   EXPECT_TRUE(levels.active().empty());
 }
 
