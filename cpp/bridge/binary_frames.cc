@@ -1,6 +1,7 @@
 #include "bridge/binary_frames.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -30,6 +31,13 @@ std::string Header(unsigned char kind, std::size_t count, FrameTime time) {
   return bytes;
 }
 
+/// Rounded to a part of a metre, radian or second (a power of two) that nobody sees on a map: figures that
+/// mean nothing would have to be sent, too.
+float Rounded(double value, double parts) { return static_cast<float>(std::round(value * parts) / parts); }
+constexpr double kOfMetre = 32;
+constexpr double kOfRadian = 2048;
+constexpr double kOfSecond = 32;
+
 template <typename Number, typename Field>
 void Column(std::string& bytes, const Rows& rows, Field field) {
   for (const auto& [id, row] : rows) Append(bytes, static_cast<Number>(field(*row)));
@@ -44,6 +52,14 @@ void Column(std::string& bytes, const Rows& rows, std::optional<Part> FleetRow::
   }
 }
 
+template <typename Part, typename Value>
+void RoundedColumn(std::string& bytes, const Rows& rows, std::optional<Part> FleetRow::*part,
+                   Value Part::*field, double parts, float otherwise = 0) {
+  for (const auto& [id, row] : rows) {
+    Append(bytes, row->*part ? Rounded((*(row->*part)).*field, parts) : otherwise);
+  }
+}
+
 }  // namespace
 
 std::string EncodeMotion(const recording::FleetTable& fleet, FrameTime time, bus::Utime now) {
@@ -54,13 +70,15 @@ std::string EncodeMotion(const recording::FleetTable& fleet, FrameTime time, bus
   std::string bytes = Header(kMotionKind, rows.size(), time);
   const auto state = &FleetRow::state;
   for (const auto& [id, row] : rows) Append(bytes, id);
-  Column(bytes, rows, state, &vehicle_state_t::east_m, 0.f);
-  Column(bytes, rows, state, &vehicle_state_t::north_m, 0.f);
-  Column(bytes, rows, state, &vehicle_state_t::up_m, 0.f);
-  Column(bytes, rows, state, &vehicle_state_t::speed_m_s, 0.f);
-  Column<float>(bytes, rows, [](const FleetRow& row) { return WrapAngle(row.state->course_rad); });
-  Column(bytes, rows, state, &vehicle_state_t::climb_rad, 0.f);
-  Column<float>(bytes, rows, [&](const FleetRow& row) { return bus::ToSeconds(now - row.heard_at); });
+  RoundedColumn(bytes, rows, state, &vehicle_state_t::east_m, kOfMetre);
+  RoundedColumn(bytes, rows, state, &vehicle_state_t::north_m, kOfMetre);
+  RoundedColumn(bytes, rows, state, &vehicle_state_t::up_m, kOfMetre);
+  RoundedColumn(bytes, rows, state, &vehicle_state_t::speed_m_s, kOfMetre);
+  Column<float>(bytes, rows,
+                [](const FleetRow& row) { return Rounded(WrapAngle(row.state->course_rad), kOfRadian); });
+  RoundedColumn(bytes, rows, state, &vehicle_state_t::climb_rad, kOfRadian);
+  Column<float>(bytes, rows,
+                [&](const FleetRow& row) { return Rounded(bus::ToSeconds(now - row.heard_at), kOfSecond); });
   Column<std::uint8_t>(bytes, rows, [](const FleetRow& row) {
     return (row.state->payload_on ? 1 : 0) | (row.info && row.info->has_payload ? 2 : 0);
   });
@@ -76,22 +94,22 @@ std::string EncodeStatus(const recording::FleetTable& fleet, FrameTime time) {
   const auto link = &FleetRow::link;
   for (const auto& [id, row] : rows) Append(bytes, id);
   Column<std::int32_t>(bytes, rows, [](const FleetRow& row) { return row.formation_id; });
-  Column(bytes, rows, slot, &slot_status_t::forward_error_m, 0.f);
-  Column(bytes, rows, slot, &slot_status_t::left_error_m, 0.f);
-  Column(bytes, rows, slot, &slot_status_t::up_error_m, 0.f);
+  RoundedColumn(bytes, rows, slot, &slot_status_t::forward_error_m, kOfMetre);
+  RoundedColumn(bytes, rows, slot, &slot_status_t::left_error_m, kOfMetre);
+  RoundedColumn(bytes, rows, slot, &slot_status_t::up_error_m, kOfMetre);
   Column(bytes, rows, near, &vehicle_proximity_t::nearest_id, std::int32_t{0});
-  Column(bytes, rows, near, &vehicle_proximity_t::nearest_horizontal_m, -1.f);
-  Column(bytes, rows, near, &vehicle_proximity_t::nearest_vertical_m, -1.f);
+  RoundedColumn(bytes, rows, near, &vehicle_proximity_t::nearest_horizontal_m, kOfMetre, -1);
+  RoundedColumn(bytes, rows, near, &vehicle_proximity_t::nearest_vertical_m, kOfMetre, -1);
   Column(bytes, rows, near, &vehicle_proximity_t::tau_id, std::int32_t{0});
-  Column(bytes, rows, near, &vehicle_proximity_t::tau_s, -1.f);
+  RoundedColumn(bytes, rows, near, &vehicle_proximity_t::tau_s, kOfSecond, -1);
   Column(bytes, rows, near, &vehicle_proximity_t::level_with_id, std::int32_t{0});
-  Column(bytes, rows, link, &vehicle_link_t::downlink_age_s, -1.f);
-  Column(bytes, rows, link, &vehicle_link_t::uplink_age_s, -1.f);
-  Column(bytes, rows, link, &vehicle_link_t::estimated_east_m, 0.f);
-  Column(bytes, rows, link, &vehicle_link_t::estimated_north_m, 0.f);
-  Column(bytes, rows, link, &vehicle_link_t::estimated_up_m, 0.f);
-  Column(bytes, rows, link, &vehicle_link_t::horizontal_uncertainty_m, 0.f);
-  Column(bytes, rows, link, &vehicle_link_t::vertical_uncertainty_m, 0.f);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::downlink_age_s, kOfSecond, -1);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::uplink_age_s, kOfSecond, -1);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::estimated_east_m, kOfMetre);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::estimated_north_m, kOfMetre);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::estimated_up_m, kOfMetre);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::horizontal_uncertainty_m, kOfMetre);
+  RoundedColumn(bytes, rows, link, &vehicle_link_t::vertical_uncertainty_m, kOfMetre);
   Column(bytes, rows, near, &vehicle_proximity_t::level, std::uint8_t{0});
   constexpr auto kUnknown = static_cast<std::uint8_t>(link_status_t::LINK_UNKNOWN);
   Column(bytes, rows, link, &vehicle_link_t::downlink, kUnknown);

@@ -20,6 +20,7 @@ namespace channel = bus::channel;
 
 constexpr bus::Utime kMotionPeriod = bus::kSecond / 10;
 constexpr bus::Utime kStatusPeriod = bus::kSecond / 2;
+constexpr bus::Utime kAllStatusesPeriod = bus::kSecond;
 constexpr bus::Utime kLookPeriod = bus::kSecond / 4;
 // The controller repeats a formation once a second.
 constexpr bus::Utime kFormationGoneAfter = 3 * bus::kSecond;
@@ -60,6 +61,7 @@ BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
   bus.Subscribe<recording_status_t>(channel::kRecording, [this](const auto& status) { Hear(status); });
   bus.executor().Every(kMotionPeriod, [this] { SendMotion(); });
   bus.executor().Every(kStatusPeriod, [this] { SendStatusSoon(); });
+  bus.executor().Every(kAllStatusesPeriod, [this] { SendAllStatuses(); });
   bus.executor().Every(kLookPeriod, [this] { Look(); });
 }
 
@@ -107,8 +109,10 @@ void BusMirror::Hear(const formation_status_t& status) {
   fleet_.Take(id, status.slots);
   leader_arcs_m_[id] = status.leader_arc_m;
   Json& shown = statuses_[id];
+  const bool same_mode =
+      !shown.is_null() && shown["mode"] == status.mode && shown["mode_text"] == status.mode_text;
   shown = ToJson(status);
-  sink_(TextFrame(Dump(shown), Key("status", id)));
+  if (!many() || !same_mode) sink_(TextFrame(Dump(shown), Key("status", id)));
   const auto path = paths_.find(id);
   if (path != paths_.end() && path->second.endless &&
       std::abs(status.leader_arc_m - path->second.drawn_from_arc_m) > kDrawAnewAfter_m) {
@@ -211,8 +215,12 @@ void BusMirror::RemoveFormation(std::int32_t id) {
 }
 
 void BusMirror::SendMotion() {
-  motion_skipped_ = fleet_.rows().size() > kManyVehicles && !motion_skipped_;
+  motion_skipped_ = many() && !motion_skipped_;
   if (!motion_skipped_ && !fleet_.rows().empty()) sink_(Motion());
+}
+
+void BusMirror::SendAllStatuses() {
+  if (many() && !statuses_.empty()) sink_(Statuses());
 }
 
 void BusMirror::SendStatusSoon() {
@@ -232,6 +240,12 @@ FrameTime BusMirror::Time() const {
 
 LiveFrame BusMirror::Motion() const { return BinaryFrame(EncodeMotion(fleet_, Time(), Now()), "motion"); }
 LiveFrame BusMirror::Status() const { return BinaryFrame(EncodeStatus(fleet_, Time()), "fleet status"); }
+
+LiveFrame BusMirror::Statuses() const {
+  Json all = Json::array();
+  for (const auto& [id, status] : statuses_) all.push_back(status);
+  return TextFrame(Dump({{"type", "statuses"}, {"statuses", std::move(all)}}), "statuses");
+}
 
 Json BusMirror::Hello() const {
   return {{"type", "hello"},
@@ -254,7 +268,7 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
     frames.push_back(TextFrame(Dump(formation.shown), Key("formation", id)));
   }
   for (const auto& [id, path] : paths_) frames.push_back(TextFrame(Dump(path.shown), Key("path", id)));
-  for (const auto& [id, status] : statuses_) frames.push_back(TextFrame(Dump(status), Key("status", id)));
+  if (!statuses_.empty()) frames.push_back(Statuses());
   for (const auto& [node, heartbeat] : heartbeats_) {
     frames.push_back(TextFrame(Dump(heartbeat.shown), "heartbeat/" + node));
   }

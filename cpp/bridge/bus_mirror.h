@@ -60,7 +60,8 @@ class BusMirror {
 
   static constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;
   static constexpr std::size_t kMaxEvents = 200;
-  /// Above so many UAVs MOTION goes out at 5 Hz instead of 10.
+  /// Above so many UAVs MOTION goes out at 5 Hz instead of 10, and all formations' statuses together once a
+  /// second instead of each as it comes; a status with another mode still goes out at once.
   static constexpr std::size_t kManyVehicles = 100;
 
  private:
@@ -98,11 +99,14 @@ class BusMirror {
   void ForgetFormations();
   void RemoveFormation(std::int32_t id);
   void SendMotion();
+  void SendAllStatuses();
   /// Once for all messages that are handled at this moment.
   void SendStatusSoon();
 
   bus::Utime Now() const { return bus_.executor().Now(); }
+  bool many() const { return fleet_.rows().size() > kManyVehicles; }
   FrameTime Time() const;
+  LiveFrame Statuses() const;
   Json Hello() const;
   Json Silent() const;
   /// Null when it was not heard of late.

@@ -1,5 +1,7 @@
 #include "bridge/json_messages.h"
 
+#include <cmath>
+
 #include "bus/alarm_json.h"
 
 namespace skein::bridge {
@@ -36,11 +38,19 @@ Json Slot(const slot_t& slot) {
           {"up_m", slot.up_m}};
 }
 
+/// Statuses come several times a second: a centimetre, and a hundred-thousandth of a radian, are enough.
+double Cm(double metres) { return std::round(metres * 100) / 100; }
+double Fine(double radians) { return std::round(radians * 1e5) / 1e5; }
+
 Json SlotStatus(const slot_status_t& slot) {
-  return {{"vehicle_id", slot.vehicle_id},           {"slot_east_m", slot.slot_east_m},
-          {"slot_north_m", slot.slot_north_m},       {"slot_up_m", slot.slot_up_m},
-          {"forward_error_m", slot.forward_error_m}, {"left_error_m", slot.left_error_m},
-          {"up_error_m", slot.up_error_m},           {"flown", slot.flown != 0}};
+  return {{"vehicle_id", slot.vehicle_id},
+          {"slot_east_m", Cm(slot.slot_east_m)},
+          {"slot_north_m", Cm(slot.slot_north_m)},
+          {"slot_up_m", Cm(slot.slot_up_m)},
+          {"forward_error_m", Cm(slot.forward_error_m)},
+          {"left_error_m", Cm(slot.left_error_m)},
+          {"up_error_m", Cm(slot.up_error_m)},
+          {"flown", slot.flown != 0}};
 }
 
 Json Point(const waypoint_t& point) {
@@ -96,17 +106,17 @@ Json ToJson(const formation_status_t& status) {
           {"mode_utime", status.mode_utime},
           {"mode_end_utime", status.mode_end_utime},
           {"mode_text", status.mode_text},
-          {"leader_east_m", status.leader_east_m},
-          {"leader_north_m", status.leader_north_m},
-          {"leader_up_m", status.leader_up_m},
-          {"leader_speed_m_s", status.leader_speed_m_s},
-          {"leader_course_rad", status.leader_course_rad},
-          {"leader_climb_rad", status.leader_climb_rad},
-          {"leader_arc_m", status.leader_arc_m},
+          {"leader_east_m", Cm(status.leader_east_m)},
+          {"leader_north_m", Cm(status.leader_north_m)},
+          {"leader_up_m", Cm(status.leader_up_m)},
+          {"leader_speed_m_s", Cm(status.leader_speed_m_s)},
+          {"leader_course_rad", Fine(status.leader_course_rad)},
+          {"leader_climb_rad", Fine(status.leader_climb_rad)},
+          {"leader_arc_m", Cm(status.leader_arc_m)},
           {"path_revision", status.path_revision},
-          {"avoidance_up_m", status.avoidance_up_m},
-          {"avoidance_rate_m_s", status.avoidance_rate_m_s},
-          {"avoidance_target_m", status.avoidance_target_m},
+          {"avoidance_up_m", Cm(status.avoidance_up_m)},
+          {"avoidance_rate_m_s", Cm(status.avoidance_rate_m_s)},
+          {"avoidance_target_m", Cm(status.avoidance_target_m)},
           {"slots", Each(status.slots, SlotStatus)}};
 }
 

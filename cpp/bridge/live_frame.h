@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
 
@@ -14,19 +15,21 @@ struct LiveFrame {
   bool answer = false;  ///< to one request of this browser
 };
 
-inline LiveFrame TextFrame(std::string text, std::string key = "") {
-  return {std::make_shared<const std::string>(std::move(text)), false, std::move(key)};
-}
+/// Frames from this size on are packed [B]: what is smaller gains little, and is read more easily as it is.
+inline constexpr std::size_t kPackFrom = 1024;
+inline constexpr unsigned char kPackedKind = 4;
 
-inline LiveFrame BinaryFrame(std::string bytes, std::string key) {
-  return {std::make_shared<const std::string>(std::move(bytes)), true, std::move(key)};
-}
+/// A large one is deflated into a binary frame: u8 kind = 4, u8 version = 1, u8 what (0: a text, 1: a binary
+/// frame), u8 0, u32 size unpacked, raw deflate (RFC 1951). What is binary is sorted first: all first bytes
+/// of its 4-byte words, then all second ones, ...; the last 0 to 3 bytes as they are.
+LiveFrame TextFrame(const std::string& text, std::string key = "");
+LiveFrame BinaryFrame(const std::string& bytes, std::string key);
 
 /// Time has jumped (only in recordings): the page empties its picture.
-inline LiveFrame ResetFrame() {
-  LiveFrame frame = TextFrame(R"({"type":"reset"})");
-  frame.resets = true;
-  return frame;
-}
+LiveFrame ResetFrame();
+
+/// As a browser reads it; the same when it is not packed.
+/// @throws std::invalid_argument when it is packed and not whole.
+LiveFrame Unpacked(const LiveFrame& frame);
 
 }  // namespace skein::bridge

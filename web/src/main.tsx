@@ -6,6 +6,7 @@ import { Api } from "./link/api";
 import { Commands } from "./link/commands";
 import { Connection } from "./link/connection";
 import { decodeFrame } from "./link/frames";
+import { unpack } from "./link/packed";
 import { signal } from "@preact/signals";
 import type { MapAccess } from "./map/map_access";
 import { PayloadRequests } from "./payload/payload_requests";
@@ -45,7 +46,12 @@ const connection = new Connection(
       store.takeText(text);
     },
     onBinary(buffer) {
-      const frame = decodeFrame(buffer);
+      const content = unpack(buffer);
+      if (typeof content === "string") {
+        store.takeText(content);
+        return;
+      }
+      const frame = content === null ? null : decodeFrame(content);
       if (frame !== null) store.takeFrame(frame, performance.now());
     },
   },

@@ -57,7 +57,7 @@ TEST(MotionFrame, HasTheColumnsThatBrowsersExpect) {
   EXPECT_EQ(frame.Floats(), (Floats{11, 101}));
   EXPECT_EQ(frame.Floats(), (Floats{12, 102}));
   EXPECT_EQ(frame.Floats(), (Floats{13, 103}));
-  for (const float course_rad : frame.Floats()) EXPECT_FLOAT_EQ(course_rad, 0.7168147f);
+  for (const float course_rad : frame.Floats()) EXPECT_NEAR(course_rad, 0.7168147, 0.5 / 2048);
   EXPECT_EQ(frame.Floats(), (Floats{-0.125f, -0.125f}));
   EXPECT_EQ(frame.Floats(), (Floats{0.5f, 2}));
   EXPECT_EQ(frame.Bytes(), (Bytes{3, 0}));

@@ -58,10 +58,11 @@ class BusMirrorTest : public testing::Test {
     others_.Publish(channel::kFormation, Formation());
     executor_.Deliver();
   }
-  void SendStatus(double leader_arc_m) {
+  void SendStatus(double leader_arc_m, std::int8_t mode = formation_status_t::MODE_IN_FORMATION) {
     formation_status_t status{};
     status.utime = Now();
     status.formation_id = 1;
+    status.mode = mode;
     status.tick = tick_++;
     status.leader_arc_m = leader_arc_m;
     slot_status_t slot{};
@@ -112,8 +113,9 @@ class BusMirrorTest : public testing::Test {
   bus::Bus bus_{transport_, "web-bridge", executor_};
   bus::Bus others_{transport_, "formation-controller", executor_};
   std::vector<LiveFrame> frames_;
-  BusMirror mirror_{
-      bus_, {"0.1.0", "memq://", "", ""}, [this](const LiveFrame& frame) { frames_.push_back(frame); }};
+  BusMirror mirror_{bus_, {"0.1.0", "memq://", "", ""}, [this](const LiveFrame& frame) {
+                      frames_.push_back(Unpacked(frame));
+                    }};
   std::int64_t tick_ = 0;
   std::int64_t sequence_ = 0;
 };
@@ -166,6 +168,24 @@ TEST_F(BusMirrorTest, SendsMotionTenTimesASecondAndHalfAsOftenAboveOneHundred) {
   Forget();
   executor_.RunFor(bus::kSecond);
   EXPECT_EQ(Count(kMotionKind), 5);
+}
+
+TEST_F(BusMirrorTest, SendsTheStatusesOfALargeFleetTogetherButAnotherModeAtOnce) {
+  bus::PublishChunks(others_, channel::kFleetRoster, Roster(101));
+  SendFormation();
+  SendStatus(0);
+  Forget();
+  for (int i = 0; i < 20; ++i) {
+    SendStatus(10. * i);
+    executor_.RunFor(bus::kSecond / 10);
+  }
+  EXPECT_TRUE(Texts("status").empty());
+  const auto together = Texts("statuses");
+  ASSERT_EQ(together.size(), 2u);
+  EXPECT_EQ(together.back()["statuses"][0]["formation_id"], 1);
+  SendStatus(200, formation_status_t::MODE_AVOIDING);
+  ASSERT_EQ(Texts("status").size(), 1u);
+  EXPECT_EQ(Texts("status")[0]["mode"], formation_status_t::MODE_AVOIDING);
 }
 
 TEST_F(BusMirrorTest, CountsTimeFromTheScenariosStartAndAgeFromWhenItHeard) {
@@ -318,11 +338,12 @@ TEST_F(BusMirrorTest, GivesANewcomerHelloFirstAndTheLastOfEach) {
   SendEvent("something");
   executor_.RunFor(bus::kSecond);
   std::vector<std::string> types;
-  for (const LiveFrame& frame : mirror_.Snapshot()) {
+  for (const LiveFrame& packed : mirror_.Snapshot()) {
+    const LiveFrame frame = Unpacked(packed);
     types.push_back(frame.binary ? frame.bytes->front() == kMotionKind ? "MOTION" : "STATUS"
                                  : Json::parse(*frame.bytes)["type"].get<std::string>());
   }
-  EXPECT_EQ(types, (std::vector<std::string>{"hello", "bus", "roster", "formation", "path", "status",
+  EXPECT_EQ(types, (std::vector<std::string>{"hello", "bus", "roster", "formation", "path", "statuses",
                                              "heartbeat", "event", "MOTION", "STATUS", "complete"}));
 }
 

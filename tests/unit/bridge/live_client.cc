@@ -12,6 +12,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "bridge/live_frame.h"
+
 namespace skein::bridge {
 
 namespace asio = boost::asio;
@@ -60,7 +62,10 @@ std::optional<LiveClient::Message> LiveClient::Read() {
     impl_->socket.async_read(impl_->buffer, [done](Error error, std::size_t) { done(error); });
   });
   if (error) return std::nullopt;
-  return Message{impl_->socket.got_binary(), beast::buffers_to_string(impl_->buffer.data())};
+  const LiveFrame frame =
+      Unpacked({std::make_shared<const std::string>(beast::buffers_to_string(impl_->buffer.data())),
+                impl_->socket.got_binary(), ""});
+  return Message{frame.binary, *frame.bytes};
 }
 
 nlohmann::json LiveClient::ReadText(const std::string& type) {

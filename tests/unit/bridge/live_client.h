@@ -22,7 +22,7 @@ class LiveClient {
     bool binary = false;
     std::string bytes;
   };
-  /// None when the connection has ended.
+  /// What the bridge packed comes unpacked. None when the connection has ended.
   std::optional<Message> Read();
   /// The next text of a type; others are skipped. Null when the connection has ended.
   nlohmann::json ReadText(const std::string& type);

@@ -67,9 +67,14 @@ TEST(Outbox, DropsWhatAResetMakesWorthlessButNoAnswer) {
 
 TEST(Outbox, RefusesMoreThanFourMebibytesButTakesAReplacement) {
   Outbox outbox;
-  EXPECT_TRUE(outbox.Push(TextFrame(std::string(Outbox::kMaxBytes, 'x'), "big")));
+  const auto big = [](char byte) {
+    LiveFrame frame = TextFrame("", "big");
+    frame.bytes = std::make_shared<const std::string>(Outbox::kMaxBytes, byte);
+    return frame;
+  };
+  EXPECT_TRUE(outbox.Push(big('x')));
   EXPECT_FALSE(outbox.Push(TextFrame("y")));
-  EXPECT_TRUE(outbox.Push(TextFrame(std::string(Outbox::kMaxBytes, 'z'), "big")));
+  EXPECT_TRUE(outbox.Push(big('z')));
   EXPECT_EQ(outbox.waiting_bytes(), Outbox::kMaxBytes);
   EXPECT_EQ(Next(outbox).front(), 'z');
   EXPECT_TRUE(outbox.Push(TextFrame("y")));

@@ -38,7 +38,8 @@ class PlayerTest : public testing::Test {
 
   std::vector<json> texts_;
   int motions_ = 0;
-  Player player_{Open(LinkDropLog()), {}, [this](const bridge::LiveFrame& frame) {
+  Player player_{Open(LinkDropLog()), {}, [this](const bridge::LiveFrame& packed) {
+                   const bridge::LiveFrame frame = bridge::Unpacked(packed);
                    if (frame.key == "motion") ++motions_;
                    if (!frame.binary) texts_.push_back(json::parse(*frame.bytes));
                  }};
@@ -91,7 +92,7 @@ TEST_F(PlayerTest, ShowsWhatFastMotionLeftOutWhenItIsPaused) {
 TEST_F(PlayerTest, JumpsAndKeepsPlaying) {
   player_.Play();
   player_.Seek(210);
-  EXPECT_EQ(Last("status")["mode"], 2);  // avoiding
+  EXPECT_EQ(Last("statuses")["statuses"][0]["mode"], 2);  // avoiding
   Wait(1);
   EXPECT_NEAR(player_.t_s(), 211, 0.01);
   player_.Seek(1e9);

@@ -225,7 +225,7 @@ TEST_F(RecordingsHttp, PlaysToEachBrowserByItself) {
   ada.Send(R"({"type":"playback","id":"a","action":"seek","t_s":210})");
   EXPECT_EQ(ada.ReadText("reset")["type"], "reset");
   EXPECT_EQ(ada.ReadText("roster")["vehicles"].size(), 3U);
-  EXPECT_EQ(ada.ReadText("status")["mode"], 2);
+  EXPECT_EQ(ada.ReadText("statuses")["statuses"][0]["mode"], 2);
   const std::string motion = ada.ReadBinary(1);
   double t_s = 0;
   std::memcpy(&t_s, motion.data() + 16, sizeof t_s);

@@ -20,7 +20,8 @@ void Ignore(const bridge::LiveFrame&) {}
 std::map<std::string, std::string> Picture(const Stage& stage) {
   std::map<std::string, std::string> picture;
   int events = 0;
-  for (const bridge::LiveFrame& frame : stage.mirror().Snapshot()) {
+  for (const bridge::LiveFrame& packed : stage.mirror().Snapshot()) {
+    const bridge::LiveFrame frame = bridge::Unpacked(packed);
     if (frame.binary) {
       picture[frame.key] = *frame.bytes;
       continue;

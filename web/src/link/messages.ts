@@ -240,6 +240,7 @@ export type ServerMessage =
   | FormationRemoved
   | Path
   | FormationStatus
+  | { type: "statuses"; statuses: FormationStatus[] } // of a large fleet, once a second
   | BusEvent
   | AlarmList
   | RecordingStatus

@@ -49,6 +49,13 @@ test("formations, paths and statuses come and go", () => {
   expect(store.formations.value.size + store.paths.value.size + store.statuses.value.size).toBe(0);
 });
 
+test("the statuses of all formations of a large fleet come together", () => {
+  const status = (formation_id: number) => ({ type: "status", formation_id, mode: 1, slots: [] });
+  const store = filled({ type: "statuses", statuses: [status(4), status(5)] });
+  store.beat(0);
+  expect([...store.statuses.value.keys()]).toEqual([4, 5]);
+});
+
 test("however often statuses come, they are shown on the beat", () => {
   const status = (mode: number) => ({ type: "status", formation_id: 4, mode, slots: [] });
   const store = filled(status(0));

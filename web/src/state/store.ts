@@ -120,6 +120,9 @@ export class Store {
       case "status":
         this.newest_statuses.set(message.formation_id, message);
         break;
+      case "statuses":
+        for (const status of message.statuses) this.newest_statuses.set(status.formation_id, status);
+        break;
       case "event":
         this.takeEvent(message);
         break;
