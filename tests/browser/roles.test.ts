@@ -52,8 +52,8 @@ test("who looks on sees that nothing can be commanded, and why", async () => {
   await payload(bob).click({ force: true });
   expect(await bob.text(".refusal")).toContain("Ada holds control");
   await bob.button("Dismiss").click();
-  // In the top bar there is room below the control only.
-  await bob.page.locator(".hold-all").click({ force: true });
+  // In the top bar there is room below the control only. Before a formation is heard there is nothing to hold.
+  await bob.page.locator(".hold-all:enabled").click({ force: true });
   const refusal = await bob.page.locator(".refusal").boundingBox();
   expect(refusal?.y ?? -1).toBeGreaterThan(0);
   await bob.button("Dismiss").click();
