@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "bus/channels.h"
+#include "cli/log/text.h"
 
 namespace skein::cli {
 namespace {
@@ -68,10 +69,10 @@ void ShowRecording(Station& station, bool json, std::ostream& out) {
     return;
   }
   if (status.state != recording_status_t::RECORDING) throw Failure("not recording: " + status.reason);
-  out << fmt::format("recording to {}/{} for {:.0f} s: {:.1f} MB in {} {}, {:.3g} GB are free\n",
-                     status.folder, status.recording, seconds, static_cast<double>(status.bytes) * 1e-6,
-                     status.parts, status.parts == 1 ? "file" : "files",
-                     static_cast<double>(status.free_bytes) * 1e-9);
+  const auto bytes = [](std::int64_t count) { return ByteText(static_cast<std::uint64_t>(count)); };
+  out << fmt::format("recording to {}/{} for {:.0f} s: {} in {} {}, {} are free\n", status.folder,
+                     status.recording, seconds, bytes(status.bytes), status.parts,
+                     status.parts == 1 ? "file" : "files", bytes(status.free_bytes));
 }
 
 }  // namespace skein::cli
