@@ -1,7 +1,7 @@
 /** The texts beside symbols. Places are chosen a few times a second; in between, labels move with their symbols. */
 import type { Waypoint } from "../link/messages";
 import type { Store } from "../state/store";
-import { lostText } from "../panels/mode_text";
+import { lostText } from "../units/loss_text";
 import { altitudeAbove, speed } from "../units/quantities";
 import type { Colours } from "./colours";
 import { placeLabels, type Box, type LabelRequest, type PlacedLabel } from "./labels";

@@ -2,8 +2,9 @@ import { kLinkLost } from "../state/fleet";
 import type { FormationStatus } from "../link/messages";
 import type { Store } from "../state/store";
 import { clock, duration } from "../units/format";
+import { withLossAge } from "../units/loss_text";
 import { inChosenUnits } from "../units/station_text";
-import { endOf, kModes, sameWords, withLossAge } from "./mode_text";
+import { endOf, kModes, sameWords } from "./mode_text";
 
 /** More formations than this have two lines each instead of a card. */
 const kMostCards = 3;
