@@ -46,7 +46,7 @@ struct Velocity3 {
 
 void FleetMotion::Add(const VehicleState& state, const AutopilotInput& input, const VehicleModel& model) {
   Check(model);
-  const std::size_t first = size_ % kLanes;
+  const std::size_t first = size_ % kBlockSize;
   if (first == 0) blocks_.emplace_back();
   Block& block = blocks_.back();
   block.lanes = (first / kTogether + 1) * kTogether;
@@ -68,17 +68,19 @@ void FleetMotion::Add(const VehicleState& state, const AutopilotInput& input, co
   ++size_;
 }
 
-VehicleState FleetMotion::State(std::size_t uav) const { return blocks_[uav / kLanes].State(uav % kLanes); }
+VehicleState FleetMotion::State(std::size_t uav) const {
+  return blocks_[uav / kBlockSize].State(uav % kBlockSize);
+}
 
 void FleetMotion::SetState(std::size_t uav, const VehicleState& state) {
-  blocks_[uav / kLanes].SetState(uav % kLanes, state);
+  blocks_[uav / kBlockSize].SetState(uav % kBlockSize, state);
 }
 
 void FleetMotion::SetInput(std::size_t uav, const AutopilotInput& input) {
-  Block& block = blocks_[uav / kLanes];
-  block.speed_input_m_s[uav % kLanes] = input.speed_m_s;
-  block.course_input_rad[uav % kLanes] = input.course_rad;
-  block.climb_input_rad[uav % kLanes] = input.climb_rad;
+  Block& block = blocks_[uav / kBlockSize];
+  block.speed_input_m_s[uav % kBlockSize] = input.speed_m_s;
+  block.course_input_rad[uav % kBlockSize] = input.course_rad;
+  block.climb_input_rad[uav % kBlockSize] = input.climb_rad;
 }
 
 void FleetMotion::Step(double step_s) {

@@ -26,19 +26,19 @@ class FleetMotion {
   void Step(double step_s);
 
  private:
-  static constexpr std::size_t kLanes = 64;
+  static constexpr std::size_t kBlockSize = 64;
   static constexpr std::size_t kTogether = 8;  ///< doubles in the widest registers
-  using Lanes = std::array<double, kLanes>;
+  using Column = std::array<double, kBlockSize>;
 
   /// A structure of arrays that stays in the first-level cache while it is worked on.
   struct Block {
     std::size_t lanes = 0;  ///< in use; a multiple of kTogether, the rest being copies of the last UAV
-    Lanes east_m, north_m, up_m, speed_m_s, course_rad, climb_rad;
-    Lanes course_cos, course_sin, climb_cos, climb_sin;  ///< of the two angles
-    Lanes speed_input_m_s, course_input_rad, climb_input_rad;
-    Lanes speed_per_s, course_per_s, climb_per_s;
-    Lanes min_speed_m_s, max_speed_m_s, max_acceleration_m_s2;
-    Lanes max_course_rate_rad_s, max_climb_rad, max_climb_rate_rad_s;
+    Column east_m, north_m, up_m, speed_m_s, course_rad, climb_rad;
+    Column course_cos, course_sin, climb_cos, climb_sin;  ///< of the two angles
+    Column speed_input_m_s, course_input_rad, climb_input_rad;
+    Column speed_per_s, course_per_s, climb_per_s;
+    Column min_speed_m_s, max_speed_m_s, max_acceleration_m_s2;
+    Column max_course_rate_rad_s, max_climb_rad, max_climb_rate_rad_s;
 
     VehicleState State(std::size_t lane) const;
     void SetState(std::size_t lane, const VehicleState& state);
