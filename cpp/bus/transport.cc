@@ -89,15 +89,17 @@ std::string DefaultUrl() {
   return url && *url ? url : kDefaultUrl;
 }
 
+std::string WithReceiveBuffer(const std::string& url) {
+  const auto udp = ParseUdpUrl(url);
+  if (!udp || udp->wanted_buffer_bytes != 0) return url;
+  return url + (url.find('?') == std::string::npos ? "?" : "&") +
+         ("recv_buf_size=" + std::to_string(kReceiveBufferBytes));
+}
+
 Transport MakeTransport(const std::string& url) {
   const auto udp = ParseUdpUrl(url);
   if (udp) CheckUdp(*udp, url);
-  std::string full_url = url;
-  if (udp && udp->wanted_buffer_bytes == 0) {
-    full_url += (url.find('?') == std::string::npos ? "?" : "&") +
-                ("recv_buf_size=" + std::to_string(kReceiveBufferBytes));
-  }
-  Transport transport{std::make_shared<lcm::LCM>(full_url), 0};
+  Transport transport{std::make_shared<lcm::LCM>(WithReceiveBuffer(url)), 0};
   // Asking for the file descriptor makes LCM open its receiving side, with a test of its own.
   if (!transport.lcm->good() || transport.lcm->getFileno() < 0) {
     const std::string advice =

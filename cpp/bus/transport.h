@@ -13,6 +13,10 @@ inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 /// LCM_DEFAULT_URL when set, else kDefaultUrl.
 std::string DefaultUrl();
 
+/// The URL with the receive buffer that Skein asks for when the URL says nothing: for programs that open it
+/// themselves, as lcm-logger does. The same when it is not udpm.
+std::string WithReceiveBuffer(const std::string& url);
+
 /// Something outside of the program is not as it must be: no route, a taken port. what() tells what to do
 /// about it.
 class StartError : public std::runtime_error {

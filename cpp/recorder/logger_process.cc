@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "bus/transport.h"
+
 namespace skein::recorder {
 namespace {
 
@@ -55,7 +57,8 @@ LoggerProcess::LoggerProcess(bus::LiveExecutor& executor, const std::string& lcm
                              const std::filesystem::path& file, OnEnd on_end)
     : executor_(executor), on_end_(std::move(on_end)) {
   // Its short -l is broken in 1.3.1.
-  std::vector<std::string> words{"lcm-logger", "--quiet", "--append", "--lcm-url=" + lcm_url, file.string()};
+  std::vector<std::string> words{"lcm-logger", "--quiet", "--append",
+                                 "--lcm-url=" + bus::WithReceiveBuffer(lcm_url), file.string()};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

@@ -32,6 +32,15 @@ TEST(MakeTransport, HasNoReceiveBufferOverMemq) {
   EXPECT_EQ(transport.receive_buffer_bytes, 0);
 }
 
+TEST(WithReceiveBuffer, AsksForOneWhereTheUrlSaysNothing) {
+  EXPECT_EQ(WithReceiveBuffer("udpm://239.255.76.67:7667?ttl=0"),
+            "udpm://239.255.76.67:7667?ttl=0&recv_buf_size=4194304");
+  EXPECT_EQ(WithReceiveBuffer("udpm://"), "udpm://?recv_buf_size=4194304");
+  for (const std::string url : {"udpm://?recv_buf_size=1000", "tcpq://", "memq://", "file:///tmp/a.lcm"}) {
+    EXPECT_EQ(WithReceiveBuffer(url), url);
+  }
+}
+
 TEST(DefaultUrl, ComesFromTheEnvironment) {
   setenv("LCM_DEFAULT_URL", "memq://", 1);
   EXPECT_EQ(DefaultUrl(), "memq://");
