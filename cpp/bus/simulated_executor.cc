@@ -1,5 +1,7 @@
 #include "bus/simulated_executor.h"
 
+#include <sys/ioctl.h>
+
 #include <algorithm>
 #include <cassert>
 #include <utility>
@@ -20,7 +22,9 @@ void SimulatedExecutor::At(Utime when, std::function<void()> callback) {
 }
 
 void SimulatedExecutor::Deliver() {
-  while (transport_->handleTimeout(0) > 0) {
+  // handleTimeout(0) would ask by select() before each message, a sixth of the time of a small flight.
+  for (int waiting = 0; ioctl(transport_->getFileno(), FIONREAD, &waiting) == 0 && waiting > 0;) {
+    transport_->handle();
   }
 }
 
