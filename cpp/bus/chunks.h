@@ -48,21 +48,39 @@ std::vector<Message> Split(const Message& whole, int chunk_bytes = kChunkBytes) 
   return chunks;
 }
 
-/// Publishes a message in chunks; chunk, chunk_count and the item count are filled in. A long burst is paused
-/// now and then, because loss comes from bursts.
+/// Publishes messages that follow one another, with a pause after each kBurstBytes, because loss comes from
+/// bursts.
+class Burst {
+ public:
+  explicit Burst(Bus& bus) : bus_(bus) {}
+
+  template <typename Message>
+  void Publish(const std::string& channel, const Message& message) {
+    const int size = message.getEncodedSize();
+    if (bytes_ > 0 && bytes_ + size > kBurstBytes) {
+      bus_.executor().PauseBurst();
+      bytes_ = 0;
+    }
+    bus_.Publish(channel, message);
+    bytes_ += size;
+  }
+
+ private:
+  Bus& bus_;
+  int bytes_ = 0;
+};
+
+/// Publishes a message in chunks; chunk, chunk_count and the item count are filled in.
+template <typename Message>
+void PublishChunks(Burst& burst, const std::string& channel, const Message& whole,
+                   int chunk_bytes = kChunkBytes) {
+  for (const Message& chunk : Split(whole, chunk_bytes)) burst.Publish(channel, chunk);
+}
 template <typename Message>
 void PublishChunks(Bus& bus, const std::string& channel, const Message& whole,
                    int chunk_bytes = kChunkBytes) {
-  int burst_bytes = 0;
-  for (const Message& chunk : Split(whole, chunk_bytes)) {
-    const int size = chunk.getEncodedSize();
-    if (burst_bytes > 0 && burst_bytes + size > kBurstBytes) {
-      bus.executor().PauseBurst();
-      burst_bytes = 0;
-    }
-    bus.Publish(channel, chunk);
-    burst_bytes += size;
-  }
+  Burst burst(bus);
+  PublishChunks(burst, channel, whole, chunk_bytes);
 }
 
 /// Puts the chunks of a set (a tick, a sweep) together again. The handler gets a set when its last chunk has

@@ -26,11 +26,8 @@ FormationControllerNode::FormationControllerNode(bus::Bus& bus, const Controller
   });
   inbox_.Obey<path_command_t>(bus::channel::kCmdPath,
                               [this](const path_command_t& command) { return OnPathCommand(command); });
-  // For those who join late.
-  bus_.executor().Every(bus::kSecond, [this] {
-    for (const auto& [id, flight] : flights_) SendFormation(flight);
-    SaveState();
-  });
+  bus_.executor().Every(bus::kSecond / kRepeatParts, [this] { RepeatFormations(); });
+  bus_.executor().Every(bus::kSecond, [this] { SaveState(); });
 }
 
 void FormationControllerNode::OnRoster(const fleet_roster_t& roster) {
@@ -99,8 +96,10 @@ void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
     commands.insert(commands.end(), step.commands.begin(), step.commands.end());
     for (const FlightEvent& event : step.events) Tell(flight, event);
   }
-  SendCommands(commands);
-  if (ticks_heard_++ % options_.status_every_ticks == 0) SendStatuses();
+  bus::Burst burst(bus_);
+  SendCommands(commands, burst);
+  SendStatuses(burst);
+  ++ticks_heard_;
 }
 
 std::vector<FlightCommand> FormationControllerNode::HoldTheRest() {
@@ -123,7 +122,7 @@ std::vector<FlightCommand> FormationControllerNode::HoldTheRest() {
   return commands;
 }
 
-void FormationControllerNode::SendCommands(const std::vector<FlightCommand>& commands) {
+void FormationControllerNode::SendCommands(const std::vector<FlightCommand>& commands, bus::Burst& burst) {
   if (commands.empty()) return;
   ++sequence_;
   fleet_command_t whole;
@@ -149,7 +148,7 @@ void FormationControllerNode::SendCommands(const std::vector<FlightCommand>& com
   }
   for (fleet_command_t& chunk : bus::Split(whole)) {
     chunk.request_id = ++request_id_;
-    bus_.Publish(bus::channel::kCmdFleet, chunk);
+    burst.Publish(bus::channel::kCmdFleet, chunk);
   }
 }
 
@@ -158,9 +157,21 @@ void FormationControllerNode::SendFormation(const FormationFlight& flight) {
   bus_.Publish(bus::channel::kPath, PathMessage(flight, bus_.executor().Now()));
 }
 
-void FormationControllerNode::SendStatuses() {
+void FormationControllerNode::RepeatFormations() {
+  // For those who join late. Each has its part of the second: all at once would fill receive buffers.
+  std::size_t index = 0;
   for (const auto& [id, flight] : flights_) {
-    bus::PublishChunks(bus_, bus::channel::kFormationStatus, flight.Status(tick_));
+    if (index++ % kRepeatParts == repeat_part_) SendFormation(flight);
+  }
+  repeat_part_ = (repeat_part_ + 1) % kRepeatParts;
+}
+
+void FormationControllerNode::SendStatuses(bus::Burst& burst) {
+  // Each formation has its tick, too.
+  std::int64_t index = 0;
+  for (const auto& [id, flight] : flights_) {
+    if ((ticks_heard_ - index++) % options_.status_every_ticks != 0) continue;
+    bus::PublishChunks(burst, bus::channel::kFormationStatus, flight.Status(tick_));
   }
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/chunks.h"
 #include "bus/command_inbox.h"
 #include "bus/events.h"
 #include "config/scenario.h"
@@ -68,11 +69,15 @@ class FormationControllerNode {
   std::string WhyNot(const config::FormationConfig& config) const;
 
   // What goes out (controller_node.cc).
-  void SendCommands(const std::vector<FlightCommand>& commands);
+  void SendCommands(const std::vector<FlightCommand>& commands, bus::Burst& burst);
   void SendFormation(const FormationFlight& flight);
-  void SendStatuses();
+  void RepeatFormations();
+  void SendStatuses(bus::Burst& burst);
   void Tell(const FormationFlight& flight, const FlightEvent& event);
   std::vector<FlightCommand> HoldTheRest();
+
+  /// Parts of a second; FORMATION and PATH of each formation go out in one of them.
+  static constexpr std::size_t kRepeatParts = 20;
 
   bus::Bus& bus_;
   ControllerOptions options_;
@@ -87,6 +92,7 @@ class FormationControllerNode {
   bus::Utime tick_utime_ = 0;
   std::int64_t tick_ = 0;
   std::int64_t ticks_heard_ = 0;
+  std::size_t repeat_part_ = 0;  ///< of kRepeatParts, the next
   std::int64_t request_id_ = 0;
   std::int64_t sequence_ = 0;
   bool state_unwritable_ = false;
