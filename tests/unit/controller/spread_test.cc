@@ -50,7 +50,9 @@ TEST(ControllerOfManyFormations, SpreadsWhatItSendsOverItsPeriod) {
   bus::SimulatedExecutor executor(transport.lcm);
   bus::Bus bus(transport.lcm, "formation-controller", executor);
   bus::Bus fleet(transport.lcm, "fleet-simulator", executor);
-  FormationControllerNode controller(bus, {.scenario = ManyFormations()});
+  ControllerOptions options;
+  options.scenario = ManyFormations();
+  FormationControllerNode controller(bus, options);
   std::map<bus::Utime, int> formations, statuses;
   std::map<int, int> formations_of, statuses_of;
   fleet.Subscribe<formation_t>(bus::channel::kFormation, [&](const formation_t& formation) {
