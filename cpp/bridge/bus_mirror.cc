@@ -105,14 +105,13 @@ void BusMirror::Hear(const formation_t& formation) {
 
 void BusMirror::Hear(const formation_status_t& status) {
   const std::int32_t id = status.formation_id;
-  flights_[id].status = status;
+  formation_status_t& last = flights_[id].status;
+  const bool same_mode =
+      last.formation_id == id && last.mode == status.mode && last.mode_text == status.mode_text;
+  last = status;
   fleet_.Take(id, status.slots);
   leader_arcs_m_[id] = status.leader_arc_m;
-  Json& shown = statuses_[id];
-  const bool same_mode =
-      !shown.is_null() && shown["mode"] == status.mode && shown["mode_text"] == status.mode_text;
-  shown = ToJson(status);
-  if (!many() || !same_mode) sink_(TextFrame(Dump(shown), Key("status", id)));
+  if (!many() || !same_mode) sink_(TextFrame(Dump(ToJson(status)), Key("status", id)));
   const auto path = paths_.find(id);
   if (path != paths_.end() && path->second.endless &&
       std::abs(status.leader_arc_m - path->second.drawn_from_arc_m) > kDrawAnewAfter_m) {
@@ -206,7 +205,6 @@ void BusMirror::ForgetFormations() {
 
 void BusMirror::RemoveFormation(std::int32_t id) {
   formations_.erase(id);
-  statuses_.erase(id);
   flights_.erase(id);
   leader_arcs_m_.erase(id);
   paths_.erase(id);
@@ -220,7 +218,7 @@ void BusMirror::SendMotion() {
 }
 
 void BusMirror::SendAllStatuses() {
-  if (many() && !statuses_.empty()) sink_(Statuses());
+  if (many()) sink_(StatusesFrame());
 }
 
 void BusMirror::SendStatusSoon() {
@@ -241,10 +239,16 @@ FrameTime BusMirror::Time() const {
 LiveFrame BusMirror::Motion() const { return BinaryFrame(EncodeMotion(fleet_, Time(), Now()), "motion"); }
 LiveFrame BusMirror::Status() const { return BinaryFrame(EncodeStatus(fleet_, Time()), "fleet status"); }
 
-LiveFrame BusMirror::Statuses() const {
+Json BusMirror::Statuses() const {
   Json all = Json::array();
-  for (const auto& [id, status] : statuses_) all.push_back(status);
-  return TextFrame(Dump({{"type", "statuses"}, {"statuses", std::move(all)}}), "statuses");
+  for (const auto& [id, flight] : flights_) {
+    if (flight.status.formation_id == id) all.push_back(ToJson(flight.status));
+  }
+  return all;
+}
+
+LiveFrame BusMirror::StatusesFrame() const {
+  return TextFrame(Dump({{"type", "statuses"}, {"statuses", Statuses()}}), "statuses");
 }
 
 Json BusMirror::Hello() const {
@@ -268,7 +272,7 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
     frames.push_back(TextFrame(Dump(formation.shown), Key("formation", id)));
   }
   for (const auto& [id, path] : paths_) frames.push_back(TextFrame(Dump(path.shown), Key("path", id)));
-  if (!statuses_.empty()) frames.push_back(Statuses());
+  frames.push_back(StatusesFrame());
   for (const auto& [node, heartbeat] : heartbeats_) {
     frames.push_back(TextFrame(Dump(heartbeat.shown), "heartbeat/" + node));
   }
@@ -330,14 +334,13 @@ Json BusMirror::State() const {
                 {"roster", roster_shown_},
                 {"formations", Json::array()},
                 {"paths", Json::array()},
-                {"statuses", Json::array()},
+                {"statuses", Statuses()},
                 {"heartbeats", Json::array()},
                 {"alarms", alarms_},
                 {"recording", Recording()},
                 {"events", Json(events_)}};
   for (const auto& [id, formation] : formations_) state["formations"].push_back(formation.shown);
   for (const auto& [id, path] : paths_) state["paths"].push_back(path.shown);
-  for (const auto& [id, status] : statuses_) state["statuses"].push_back(status);
   for (const auto& [node, heartbeat] : heartbeats_) state["heartbeats"].push_back(heartbeat.shown);
   return state;
 }

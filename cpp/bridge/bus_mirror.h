@@ -106,7 +106,8 @@ class BusMirror {
   bus::Utime Now() const { return bus_.executor().Now(); }
   bool many() const { return fleet_.rows().size() > kManyVehicles; }
   FrameTime Time() const;
-  LiveFrame Statuses() const;
+  Json Statuses() const;
+  LiveFrame StatusesFrame() const;
   Json Hello() const;
   Json Silent() const;
   /// Null when it was not heard of late.
@@ -123,7 +124,6 @@ class BusMirror {
   Airspace airspace_;
   bus::Utime state_utime_ = 0;
   std::map<std::int32_t, Repeated> formations_;
-  std::map<std::int32_t, Json> statuses_;
   std::map<std::int32_t, controller::FormationState> flights_;  ///< the messages themselves, as they come
   std::map<std::int32_t, double> leader_arcs_m_;
   std::map<std::int32_t, DrawnPath> paths_;
