@@ -47,9 +47,14 @@ void FormationFlight::TakeClock(bus::Utime utime) {
 }
 
 FormationFlight::Member FormationFlight::MakeMember(const Slot& slot) const {
-  if (config_.control == "paper")
-    return {slot.offset, PaperLaw(PaperParametersFrom(config_.gains)), 0, 0, {}, {}, {}, false};
-  return {slot.offset, SkeinLaw(SkeinLawParametersFrom(config_.gains)), 0, 0, {}, {}, {}, false};
+  Member member;
+  member.slot = slot.offset;
+  if (config_.control == "paper") {
+    member.law = PaperLaw(PaperParametersFrom(config_.gains));
+  } else {
+    member.law = SkeinLaw(SkeinLawParametersFrom(config_.gains));
+  }
+  return member;
 }
 
 FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
@@ -59,6 +64,7 @@ FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
 
   std::vector<MemberObservation> observations;
   for (auto& [id, member] : members_) {
+    member.planned = PlaceOf(member.slot, {});
     const auto view = fleet.find(id);
     const bool heard = view != fleet.end() && view->second.state;
     observations.push_back(heard ? Observe(id, member, view->second) : Unheard(id));
@@ -104,7 +110,7 @@ MemberObservation FormationFlight::Observe(int id, Member& member, const Vehicle
   seen.callsign = view.callsign;
   seen.lost = view.lost;
   const VehicleState now = view.At(utime_);
-  seen.level_m = now.up_m - PlaceOf(member.slot, {}).position.z();
+  seen.level_m = now.up_m - member.planned.position.z();
   seen.track = {Position(now), Velocity(now)};
   seen.ready_to_merge = avoidance_.role(id) == Role::kRejoining && ReadyToMerge(id, member, view);
   return seen;
@@ -169,9 +175,9 @@ AirspaceLimits FormationFlight::Surroundings(const FleetPicture& fleet) const {
   limits.clearance_m = config_.proximity.height_m + 50 + 20;
   limits.climb_rate_m_s = ClimbRate(fleet);
   for (const auto& [id, member] : members_) {
-    const double planned = PlaceOf(member.slot, {}).position.z();
-    limits.highest_m = std::min(limits.highest_m, airspace_.ceiling_m - planned);
-    limits.lowest_m = std::max(limits.lowest_m, airspace_.floor_m - planned);
+    const double planned_m = member.planned.position.z();
+    limits.highest_m = std::min(limits.highest_m, airspace_.ceiling_m - planned_m);
+    limits.lowest_m = std::max(limits.lowest_m, airspace_.floor_m - planned_m);
   }
   return limits;
 }
@@ -232,8 +238,8 @@ SlotReference FormationFlight::PlaceOf(const SlotOffset& slot, const AltitudeOff
 }
 
 void FormationFlight::Measure(int id, Member& member, const VehicleView* view) {
-  const SlotReference place =
-      PlaceOf(member.slot, member.flown ? avoidance_.offset(id) : avoidance_.body().now());
+  const AltitudeOffset offset = member.flown ? avoidance_.offset(id) : avoidance_.body().now();
+  const SlotReference place = offset == AltitudeOffset{} ? member.planned : PlaceOf(member.slot, offset);
   member.slot_position = place.position;
   member.error = view ? SlotError(place, Position(view->At(utime_))) : Eigen::Vector3d(0, 0, 0);
 }

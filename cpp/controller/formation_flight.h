@@ -99,6 +99,7 @@ class FormationFlight {
     bus::Utime controlled_utime = 0;   ///< time stamp of the telemetry last answered
     bus::Utime predict_utime = 0;      ///< not before this is its rejoin flown ahead again
     std::optional<VehicleState> held;  ///< what it holds while its link is lost
+    SlotReference planned;             ///< its slot at this step, while nobody avoids anything
     Eigen::Vector3d error{0, 0, 0};    ///< slot minus UAV, slot frame
     Eigen::Vector3d slot_position{0, 0, 0};
     bool flown = false;

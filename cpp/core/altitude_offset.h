@@ -7,6 +7,7 @@ struct AltitudeOffset {
   double height_m = 0;
   double rate_m_s = 0;
   double acceleration_m_s2 = 0;
+  bool operator==(const AltitudeOffset&) const = default;
 };
 
 struct AltitudeRampLimits {
