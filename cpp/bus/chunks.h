@@ -19,8 +19,8 @@ namespace skein::bus {
 /// Encoded items in one chunk are at most this long [B]: most of it fits into the kernel's default buffer
 /// (tests/bench/README.md).
 inline constexpr int kChunkBytes = 7000;
-/// So much goes out at once; a sixth of what the kernel's default buffer holds.
-inline constexpr int kBurstBytes = 20'000;
+/// So much goes out at once, four full chunks; a quarter of what the kernel's default buffer holds.
+inline constexpr int kBurstBytes = 29'000;
 
 /// Splits a message into chunks of at most kChunkBytes of items; at least one chunk, even when there is
 /// nothing in it.

@@ -20,7 +20,7 @@ namespace skein::bus {
 namespace {
 
 // Long enough for other processes to get a turn on a busy machine, short against a tick.
-constexpr auto kBurstPause = std::chrono::milliseconds(1);
+constexpr auto kBurstPause = std::chrono::microseconds(250);
 
 // Timers get their turn after so many messages at the latest.
 constexpr int kMessagesInARow = 100;
