@@ -4,10 +4,10 @@ import argparse
 import json
 import os
 import pathlib
+import select
 import signal
 import subprocess
 import sys
-import threading
 import time
 import urllib.error
 import urllib.request
@@ -21,7 +21,9 @@ RECORDING_TIMEOUT_S = 2
 # A process that dies this often within this time is not started again.
 DEATHS, DEATHS_WITHIN_S = 5, 30
 
-asked_to_end = threading.Event()  # set by Ctrl-C and the like; asking again changes nothing
+# Holds something to read once Ctrl-C or the like has asked to end; asking again changes nothing. The interpreter writes
+# it: a threading.Event that a signal sets is locked for ever when the signal comes while it is looked at or set.
+asked_to_end, asks_to_end = os.pipe()  # neither of which children inherit
 
 
 class StartFailed(Exception):
@@ -37,7 +39,7 @@ def say(text):
 
 
 def pause(seconds=0.1):
-    if asked_to_end.wait(seconds):
+    if select.select([asked_to_end], [], [], seconds)[0]:
         raise Interrupted
 
 
@@ -203,8 +205,10 @@ def main():
 
     flight = Flight(options)
     status = 0
+    os.set_blocking(asks_to_end, False)
+    signal.set_wakeup_fd(asks_to_end, warn_on_full_buffer=False)
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, lambda *_: asked_to_end.set())
+        signal.signal(number, lambda *_: None)
     try:
         flight.start()
         say(f"Skein flies {options.scenario.stem}: http://127.0.0.1:{options.port}   (Ctrl-C ends it)")
