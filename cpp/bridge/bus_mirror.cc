@@ -32,6 +32,10 @@ std::string Key(const char* type, std::int32_t id) { return std::string(type) + 
 
 double Rounded(double metres) { return std::round(metres * 100) / 100; }
 
+LiveFrame StatusesFrame(const Json& statuses) {
+  return TextFrame(Dump({{"type", "statuses"}, {"statuses", statuses}}), "statuses");
+}
+
 }  // namespace
 
 BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
@@ -218,7 +222,7 @@ void BusMirror::SendMotion() {
 }
 
 void BusMirror::SendAllStatuses() {
-  if (many()) sink_(StatusesFrame());
+  if (many()) sink_(StatusesFrame(Statuses()));
 }
 
 void BusMirror::SendStatusSoon() {
@@ -247,10 +251,6 @@ Json BusMirror::Statuses() const {
   return all;
 }
 
-LiveFrame BusMirror::StatusesFrame() const {
-  return TextFrame(Dump({{"type", "statuses"}, {"statuses", Statuses()}}), "statuses");
-}
-
 Json BusMirror::Hello() const {
   return {{"type", "hello"},
           {"version", hello_.version},
@@ -272,7 +272,7 @@ std::vector<LiveFrame> BusMirror::Snapshot() const {
     frames.push_back(TextFrame(Dump(formation.shown), Key("formation", id)));
   }
   for (const auto& [id, path] : paths_) frames.push_back(TextFrame(Dump(path.shown), Key("path", id)));
-  frames.push_back(StatusesFrame());
+  if (const Json statuses = Statuses(); !statuses.empty()) frames.push_back(StatusesFrame(statuses));
   for (const auto& [node, heartbeat] : heartbeats_) {
     frames.push_back(TextFrame(Dump(heartbeat.shown), "heartbeat/" + node));
   }

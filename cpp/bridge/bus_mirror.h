@@ -107,7 +107,6 @@ class BusMirror {
   bool many() const { return fleet_.rows().size() > kManyVehicles; }
   FrameTime Time() const;
   Json Statuses() const;
-  LiveFrame StatusesFrame() const;
   Json Hello() const;
   Json Silent() const;
   /// Null when it was not heard of late.
