@@ -76,7 +76,9 @@ test("at the next alarm everything is as it was: the list, the link, the events,
   await page().keyboard.press("Control+ArrowRight");
   await until(async () => expect(await at_s()).toBeGreaterThan(1));
   // There may be others before it. The picture of a moment comes after its time.
-  const of_uav3 = page().locator(".events li", { hasText: /link of UAV3 lost/ }).first();
+  const of_uav3 = page()
+    .locator(".events li", { hasText: /link of UAV3 lost/ })
+    .first();
   for (let i = 0; i < 20 && !(await appears(of_uav3, 3000)); i += 1) {
     const before_s = await at_s();
     await page().keyboard.press("Control+ArrowRight");
