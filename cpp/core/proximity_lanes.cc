@@ -12,19 +12,20 @@ constexpr double kHair = 1e-12;
 
 /// Eq. (3) of [1] says for d > D_mod that Tau <= T where d^2 - D_mod^2 <= T max(-d' d, V_min d), and -d' d is
 /// -(r . w). Of a box the least d and the largest -(r . w) and |w| are known, so that two bounds of -d' d
-/// hold: -(r . w), and |w| d. All squared where a root would be needed.
-[[gnu::always_inline]] inline bool Reaches(double range_m2, double closing_product, double speed_m2,
-                                           const PairReach& reach) {
+/// hold: -(r . w), and |w| d. All squared where a root would be needed, and 0 or 1 without a branch.
+[[gnu::always_inline]] inline std::int64_t Reaches(double range_m2, double closing_product, double speed_m2,
+                                                   const PairReach& reach) {
   const double outside_m2 = range_m2 * (1 - kHair) - reach.d_mod_m2;
   const double in_time_m2 = reach.tau_s * (1 + kHair);
   const double outside_m4 = outside_m2 * outside_m2;
   const double in_time_m4 = in_time_m2 * in_time_m2 * range_m2;
-  const bool near = range_m2 <= reach.range_m2 * (1 + kHair);
-  const bool within = outside_m2 <= 0;
-  const bool fast =
-      (outside_m2 <= in_time_m2 * closing_product) & (outside_m4 <= in_time_m4 * speed_m2 * (1 + kHair));
-  const bool slow = outside_m4 <= in_time_m4 * reach.min_closing_m2 * (1 + kHair);
-  return near | ((closing_product > 0) & (within | fast | slow));
+  const std::int64_t near = range_m2 <= reach.range_m2 * (1 + kHair);
+  const std::int64_t within = outside_m2 <= 0;
+  const std::int64_t in_time = outside_m2 <= in_time_m2 * closing_product;
+  const std::int64_t in_reach = outside_m4 <= in_time_m4 * speed_m2 * (1 + kHair);
+  const std::int64_t slow = outside_m4 <= in_time_m4 * reach.min_closing_m2 * (1 + kHair);
+  const std::int64_t closing = closing_product > 0;
+  return near | (closing & (within | (in_time & in_reach) | slow));
 }
 
 }  // namespace
@@ -35,6 +36,8 @@ bool MayMatter(const EightLookers& lookers, const EightBoxes& boxes, std::size_t
   const Reach& own = lookers.own;
   const Reach& others = lookers.others;
   const double group = boxes.group[box];
+  const std::int64_t has_group = group > 0;
+  const std::int64_t several = group == kSeveralGroups;
   std::int64_t any = 0;
   SKEIN_EACH_BY_ITSELF
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -53,11 +56,10 @@ bool MayMatter(const EightLookers& lookers, const EightBoxes& boxes, std::size_t
                                 std::min(high * low_speed, high * high_speed));
       speed_m2 += std::max(low_speed * low_speed, high_speed * high_speed);
     }
-    const bool ours = (group == uavs.group[i]) & (group > 0);
-    const bool several = group == kSeveralGroups;
-    const bool to_own = (ours | several) & Reaches(range_m2, -least_product, speed_m2, own.Of(i));
-    const bool to_others = !ours & Reaches(range_m2, -least_product, speed_m2, others.Of(i));
-    to[i] = to_own | to_others ? 1 : 0;
+    const std::int64_t ours = group == uavs.group[i] ? has_group : 0;
+    const std::int64_t to_own = (ours | several) & Reaches(range_m2, -least_product, speed_m2, own.Of(i));
+    const std::int64_t to_others = (1 - ours) & Reaches(range_m2, -least_product, speed_m2, others.Of(i));
+    to[i] = to_own | to_others;
     any |= to[i];
   }
   return any != 0;
@@ -69,6 +71,7 @@ bool MayMatter(const EightLookers& lookers, std::size_t looker, const EightUavs&
   const double x = from.position[0][looker], y = from.position[1][looker], z = from.position[2][looker];
   const double u = from.velocity[0][looker], v = from.velocity[1][looker], w = from.velocity[2][looker];
   const double group = from.group[looker];
+  const std::int64_t has_group = group > 0;
   const PairReach own = lookers.own.Of(looker);
   const PairReach others = lookers.others.Of(looker);
   std::int64_t any = 0;
@@ -83,10 +86,9 @@ bool MayMatter(const EightLookers& lookers, std::size_t looker, const EightUavs&
     const double range_m2 = rx * rx + ry * ry + rz * rz;
     const double closing_product = -(rx * wx + ry * wy + rz * wz);
     const double speed_m2 = wx * wx + wy * wy + wz * wz;
-    const bool ours = (uavs.group[i] == group) & (group > 0);
-    const bool matters = (ours & Reaches(range_m2, closing_product, speed_m2, own)) |
-                         (!ours & Reaches(range_m2, closing_product, speed_m2, others));
-    who[i] = matters ? 1 : 0;
+    const std::int64_t ours = uavs.group[i] == group ? has_group : 0;
+    who[i] = (ours & Reaches(range_m2, closing_product, speed_m2, own)) |
+             ((1 - ours) & Reaches(range_m2, closing_product, speed_m2, others));
     any |= who[i];
   }
   return any != 0;
