@@ -4,7 +4,7 @@ import { tmpdir } from "node:os";
 import { fileURLToPath } from "node:url";
 import axe from "axe-core";
 import { chromium, type BrowserContext, type Locator, type Page } from "playwright-core";
-import { expect, vi } from "vitest";
+import { afterEach, expect, vi } from "vitest";
 import { kPageUrl } from "./station";
 
 const kResults = fileURLToPath(new URL("test-results/", import.meta.url));
@@ -44,6 +44,16 @@ export interface Centre {
   y: number;
 }
 
+const open_screens = new Set<Screen>();
+
+// What a person would have seen when a test failed.
+afterEach(async ({ task }) => {
+  if (task.result?.state !== "fail") return;
+  const name = `failed-${task.file.name}-${task.name}`.replace(/[^a-z0-9]+/gi, "-");
+  for (const [i, { page }] of [...open_screens].entries())
+    await page.screenshot({ path: `${kResults}${name}-${i + 1}.png` });
+});
+
 export class Screen {
   /** Errors on the console and unhandled rejections. */
   readonly complaints: string[] = [];
@@ -79,11 +89,13 @@ export class Screen {
     });
     const page = context.pages()[0] ?? (await context.newPage());
     const screen = new Screen(context, profile, page);
+    open_screens.add(screen);
     await page.goto(kPageUrl + path);
     return screen;
   }
 
   async close(): Promise<void> {
+    open_screens.delete(this);
     await this.context.close();
     rmSync(this.profile, { recursive: true, force: true });
   }

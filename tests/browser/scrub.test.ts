@@ -68,9 +68,7 @@ test("Space plays and pauses, and the time stands while it is paused", async () 
 test("at the next alarm everything is as it was: the list, the link, the events, the altitude", async () => {
   explain(flight.station);
   await page().getByRole("tab", { name: "Events" }).click();
-  await page().keyboard.press("g");
-  await page().keyboard.type("0");
-  await page().keyboard.press("Enter");
+  await goTo("0");
   await until(async () => expect(await at_s()).toBe(0));
   await until(async () => expect(await screen.text(".events")).not.toContain("UAV3"));
   await page().keyboard.press("Control+ArrowRight");
