@@ -7,6 +7,7 @@ find_package(Threads REQUIRED)
 find_package(Boost CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(GEOGRAPHICLIB REQUIRED IMPORTED_TARGET geographiclib)
+pkg_check_modules(SODIUM REQUIRED IMPORTED_TARGET libsodium)
 
 # Debian's LCM 1.3.1 has no CMake config file; upstream from 1.4 on has.
 find_package(lcm QUIET CONFIG)

@@ -6,8 +6,7 @@
 
 namespace skein::bridge {
 
-/// Who may talk to the bridge from within a browser. There are no accounts: whoever reaches the port may
-/// command the fleet, so no other web page that the operator happens to have open may.
+/// Which web pages may talk to the bridge: its own alone, not another that the operator happens to have open.
 class AccessRules {
  public:
   /// @param allowed_hosts names beside localhost by which the bridge may be called (--allow-host).

@@ -22,7 +22,8 @@ struct Backend {
   std::string why_no_command;
   /// hello and the last of everything, for a browser that has just come.
   std::function<void(Reply<std::vector<LiveFrame>>)> snapshot;
-  /// The JSON of GET /api/state and of GET /api/vehicles.
+  /// The JSON of GET /api/health, of GET /api/state and of GET /api/vehicles.
+  std::function<void(Reply<std::string>)> health;
   std::function<void(Reply<std::string>)> state;
   std::function<void(Reply<std::string>)> vehicles;
   /// The bytes of GET /api/history.

@@ -9,6 +9,7 @@
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
+#include "bus/only_one.h"
 #include "config/scenario.h"
 #include "controller/fleet_picture.h"
 #include "core/path_line.h"
@@ -159,6 +160,7 @@ void BusMirror::Hear(const event_t& event) {
 }
 
 void BusMirror::Hear(const heartbeat_t& heartbeat) {
+  if (bus::IsStandby(heartbeat.heartbeat_node)) return;
   Repeated& known = heartbeats_[heartbeat.heartbeat_node];
   known = {ToJson(heartbeat), Now()};
   sink_(TextFrame(Dump(known.shown), "heartbeat/" + heartbeat.heartbeat_node));
@@ -343,6 +345,14 @@ Json BusMirror::State() const {
   for (const auto& [id, path] : paths_) state["paths"].push_back(path.shown);
   for (const auto& [node, heartbeat] : heartbeats_) state["heartbeats"].push_back(heartbeat.shown);
   return state;
+}
+
+Json BusMirror::Health() const {
+  Json nodes = Json::array();
+  for (const auto& [node, heartbeat] : heartbeats_) {
+    if (!silent_.contains(node)) nodes.push_back(node);
+  }
+  return {{"nodes", nodes}, {"nodes_silent", silent_}};
 }
 
 Json BusMirror::Vehicles() const {

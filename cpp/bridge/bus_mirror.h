@@ -12,7 +12,7 @@
 #include "bridge/json_messages.h"
 #include "bridge/live_frame.h"
 #include "bus/bus.h"
-#include "controller/state_file.h"
+#include "controller/controller_state.h"
 #include "core/path.h"
 #include "experiment/preview.h"
 #include "recording/fleet_table.h"
@@ -50,8 +50,9 @@ class BusMirror {
   /// The flight as it is now, to fly a change ahead from.
   experiment::FlightPicture Picture() const;
 
-  /// GET /api/state and GET /api/vehicles.
+  /// GET /api/state, GET /api/vehicles and GET /api/health.
   Json State() const;
+  Json Health() const;
   Json Vehicles() const;
 
   /// The flight so far, and when it began.

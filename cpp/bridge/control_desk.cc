@@ -57,6 +57,8 @@ int ControlDesk::Enter(const Introduction& introduction, Time now) {
     known->second.page = introduction.page;
     known->second.may_operate = introduction.may_operate;
     if (!introduction.name.empty()) known->second.name = UniqueName(introduction.name, number);
+    // His token has become a viewer's meanwhile.
+    if (number == holder_ && !introduction.may_operate) SetFree(now);
   } else {
     number = ++last_number_;
     people_[number] = {

@@ -17,6 +17,7 @@ using http::field;
 using http::status;
 
 constexpr std::string_view kJson = "application/json";
+constexpr std::string_view kHealth = "/api/health";
 constexpr std::string_view kCommand = "/api/command";
 constexpr std::string_view kFormationPreview = "/api/preview/formation";
 constexpr std::string_view kPathPreview = "/api/preview/path";
@@ -67,26 +68,47 @@ std::string ScenariosJson() {
 
 }  // namespace
 
-Rights RightsOf(const HttpHead& /*head*/) { return {}; }
-
-HttpRouter::HttpRouter(const RouterOptions& options, Backend backend, RecordingsRouter::WhyNot why_not)
+HttpRouter::HttpRouter(const RouterOptions& options, Backend backend, Doorkeeper& doorkeeper,
+                       RecordingsRouter::WhyNot why_not)
     : access_(options.allowed_hosts),
       files_(options.web_folder),
       tiles_(options.tiles),
       content_security_policy_(ContentSecurityPolicy(options.tile_url)),
       backend_(std::move(backend)),
+      doorkeeper_(doorkeeper),
+      sign_in_(doorkeeper, [this](status status, std::string_view mime_type,
+                                  std::string body) { return Make(status, mime_type, std::move(body)); }),
+      why_not_(std::move(why_not)),
       recordings_(
           options.recordings,
           [this](status status, std::string_view mime_type, std::string body) {
             return Make(status, mime_type, std::move(body));
           },
-          std::move(why_not), backend_.tell) {}
+          why_not_, backend_.tell) {}
 
-std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::string_view local_address,
+std::optional<HttpResponse> HttpRouter::TurnAwayStrangers(const HttpHead& head, const Caller& caller,
+                                                          bool upgrade) const {
+  const std::string_view path = Path(head);
+  // The page itself is no secret, and somebody has to ask for the token. Who watches over processes needs
+  // none.
+  const bool open =
+      !upgrade && ((!path.starts_with("/api/") && !path.starts_with("/tiles")) || path == kHealth);
+  const bool signs_in_or_out = path == SignIn::kPath && !Reads(head);
+  if (open || signs_in_or_out) return std::nullopt;
+  const std::string address = AddressOf(head, caller.remote_address);
+  const auto visitor = doorkeeper_.Admit(doorkeeper_.SecretOf(head, caller.local_port), address);
+  if (!visitor) return sign_in_.TooMany(doorkeeper_.Wait(address));
+  if (!visitor->rights.look) return sign_in_.Unknown(head, caller.local_port);
+  if (!upgrade && !Reads(head) && !visitor->rights.operate)
+    return Plain(status::forbidden, "This token is a viewer's: it may only look.");
+  return std::nullopt;
+}
+
+std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, const Caller& caller,
                                                  bool upgrade) const {
   if (head.count(field::host) != 1) return Plain(status::bad_request, "One Host header is needed.");
   const std::string_view host = View(head[field::host]);
-  if (!access_.HostIsOurs(host, local_address)) {
+  if (!access_.HostIsOurs(host, caller.local_address)) {
     return Plain(
         status::forbidden,
         "This web-bridge is not called by that name. If it should be, start it with --allow-host NAME.");
@@ -99,6 +121,7 @@ std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::stri
   if (foreign && (upgrade || !Reads(head))) {
     return Plain(status::forbidden, "Only the page that this web-bridge serves may do that.");
   }
+  if (auto response = TurnAwayStrangers(head, caller, upgrade)) return response;
   const std::string_view path = Path(head);
   if (upgrade != (path == "/live")) {
     if (upgrade) return Plain(status::not_found, "The WebSocket is at /live.");
@@ -112,25 +135,34 @@ std::optional<HttpResponse> HttpRouter::TurnAway(const HttpHead& head, std::stri
     return Plain(status::not_found, "There is no such recording.");
   }
   const bool posts = path == kCommand || path == kFormationPreview || path == kPathPreview;
-  const bool deletes = recordings_.Deletes(View(head.target()));
+  const bool signs = path == SignIn::kPath;
+  const bool deletes = signs || recordings_.Deletes(View(head.target()));
   const bool fits = posts ? head.method() == http::verb::post
-                          : Reads(head) || (deletes && head.method() == http::verb::delete_);
+                          : Reads(head) || (deletes && head.method() == http::verb::delete_) ||
+                                (signs && head.method() == http::verb::post);
   if (!fits) {
     HttpResponse response = Plain(status::method_not_allowed, "Not with this method.");
-    response.set(field::allow, posts ? "POST" : deletes ? "GET, HEAD, DELETE" : "GET, HEAD");
+    response.set(field::allow, posts     ? "POST"
+                               : signs   ? "GET, HEAD, POST, DELETE"
+                               : deletes ? "GET, HEAD, DELETE"
+                                         : "GET, HEAD");
     return response;
   }
   return std::nullopt;
 }
 
-void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
+void HttpRouter::Answer(const HttpRequest& request, const Caller& caller, const Previewer::Gone& gone,
                         std::function<void(HttpResponse)> respond) const {
   const std::string_view path = Path(request);
   const auto respond_json = [this, respond](const std::string& json) {
     respond(Make(status::ok, kJson, json));
   };
-  if (recordings_.Concerns(View(request.target()))) {
+  if (path == SignIn::kPath) {
+    respond(sign_in_.Answer(request, caller.local_port, AddressOf(request, caller.remote_address)));
+  } else if (recordings_.Concerns(View(request.target()))) {
     respond(recordings_.Answer(request));
+  } else if (path == kHealth) {
+    backend_.health(respond_json);
   } else if (path == "/api/state") {
     backend_.state(respond_json);
   } else if (path == "/api/vehicles") {
@@ -144,9 +176,10 @@ void HttpRouter::Answer(const HttpRequest& request, const Previewer::Gone& gone,
   } else if (path == kFormationPreview || path == kPathPreview) {
     Preview(request, gone, std::move(respond));
   } else if (path.starts_with("/api/")) {
-    respond(Plain(status::not_found,
-                  "The API has /api/state, /api/vehicles, /api/history, /api/scenarios, /api/recordings, "
-                  "/api/command, /api/preview/formation and /api/preview/path."));
+    respond(Plain(
+        status::not_found,
+        "The API has /api/health, /api/state, /api/vehicles, /api/history, /api/scenarios, /api/recordings, "
+        "/api/session, /api/command, /api/preview/formation and /api/preview/path."));
   } else if (path.starts_with(kTiles)) {
     respond(Tile(request));
   } else if (path == kTileArchive) {
@@ -246,6 +279,9 @@ void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResp
   };
   if (!backend_.why_no_command.empty())
     return finish({CommandResult::Outcome::kRefused, backend_.why_no_command});
+  // Where no token is demanded this host's programs may command at any time: they could on the bus, too.
+  if (const std::string reason = doorkeeper_.demands_tokens() ? why_not_(request) : ""; !reason.empty())
+    return finish({CommandResult::Outcome::kRefused, reason});
   auto command = nlohmann::json::parse(request.body(), nullptr, false);
   const auto refuse = [&](const char* reason) { finish({CommandResult::Outcome::kMalformed, reason}); };
   if (!command.is_object()) return refuse("the request is no JSON object");

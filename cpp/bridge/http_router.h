@@ -7,21 +7,14 @@
 
 #include "bridge/access_rules.h"
 #include "bridge/backend.h"
+#include "bridge/doorkeeper.h"
 #include "bridge/http_types.h"
 #include "bridge/map_tiles.h"
 #include "bridge/recordings_router.h"
+#include "bridge/sign_in.h"
 #include "bridge/static_files.h"
 
 namespace skein::bridge {
-
-/// What a session may do.
-struct Rights {
-  bool operate = true;  ///< hold control, and so command
-};
-
-/// The one place where that is decided, from the request that opened the session. There are no accounts:
-/// whoever gets past HttpRouter::TurnAway may operate.
-Rights RightsOf(const HttpHead& head);
 
 struct RouterOptions {
   std::filesystem::path web_folder;
@@ -29,22 +22,23 @@ struct RouterOptions {
   std::string tile_url;                            ///< "": none
   std::optional<MapTiles> tiles;                   ///< the operator's own map
   std::shared_ptr<const Recordings> recordings{};  ///< null: none
+  std::filesystem::path tokens_file{};             ///< "": none are demanded
 };
 
 /// Answers HTTP requests: the page, the JSON API, and why not.
 class HttpRouter {
  public:
   /// @param why_not why who sends a request may not operate, "" when he may.
-  HttpRouter(const RouterOptions& options, Backend backend, RecordingsRouter::WhyNot why_not);
+  HttpRouter(const RouterOptions& options, Backend backend, Doorkeeper& doorkeeper,
+             RecordingsRouter::WhyNot why_not);
 
   /// An answer that turns a request away for who sends it or for where to, before its body is read.
-  /// @param local_address that the connection came in on. @param upgrade it wants to become a WebSocket.
-  std::optional<HttpResponse> TurnAway(const HttpHead& head, std::string_view local_address,
-                                       bool upgrade) const;
+  /// @param upgrade it wants to become a WebSocket.
+  std::optional<HttpResponse> TurnAway(const HttpHead& head, const Caller& caller, bool upgrade) const;
 
   /// `respond` is called once, possibly at once. @param gone set by the caller when nobody waits any more:
   /// what takes long is given up then, and perhaps never answered.
-  void Answer(const HttpRequest& request, const Previewer::Gone& gone,
+  void Answer(const HttpRequest& request, const Caller& caller, const Previewer::Gone& gone,
               std::function<void(HttpResponse)> respond) const;
 
   const RecordingsRouter& recordings() const { return recordings_; }
@@ -53,6 +47,8 @@ class HttpRouter {
   HttpResponse Plain(boost::beast::http::status status, std::string text) const;
 
  private:
+  std::optional<HttpResponse> TurnAwayStrangers(const HttpHead& head, const Caller& caller,
+                                                bool upgrade) const;
   HttpResponse Make(boost::beast::http::status status, std::string_view mime_type, std::string body) const;
   HttpResponse File(const HttpRequest& request, std::optional<StaticFile> file) const;
   HttpResponse Tile(const HttpRequest& request) const;
@@ -67,6 +63,9 @@ class HttpRouter {
   std::optional<MapTiles> tiles_;
   std::string content_security_policy_;
   Backend backend_;
+  Doorkeeper& doorkeeper_;
+  SignIn sign_in_;
+  RecordingsRouter::WhyNot why_not_;
   RecordingsRouter recordings_;
 };
 

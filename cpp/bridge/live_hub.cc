@@ -42,13 +42,13 @@ ControlRequest ParseControl(const config::Object& object) {
   return request;
 }
 
-Introduction ParseIntroduction(const config::Object& object, const Rights& rights) {
+Introduction ParseIntroduction(const config::Object& object, const Visitor& visitor) {
   Introduction introduction;
-  introduction.name = object.Text("name", "");
+  introduction.name = object.Text("name", visitor.name);
   introduction.token = object.Text("token", "");
   introduction.page = object.Text("page", "");
   introduction.take = object.Boolean("take", true);
-  introduction.may_operate = rights.operate;
+  introduction.may_operate = visitor.rights.operate;
   const std::string problem = introduction.name.empty() ? "" : NameProblem(introduction.name);
   if (!problem.empty()) object.At("name").Refuse(problem);
   for (const std::string_view key : {"token", "page"}) {
@@ -139,7 +139,9 @@ CommandResult LiveHub::Control(const std::shared_ptr<LiveSession>& session, cons
                                 {"type", "id", "action", "name", "token", "page", "take", "person"});
     const bool nobody_commands = !backend_.why_no_command.empty();
     if (object.At("action").Text() == "join") {
-      Introduce(session, ParseIntroduction(object, {session->rights.operate && !nobody_commands}));
+      Introduction introduction = ParseIntroduction(object, session->visitor);
+      if (nobody_commands) introduction.may_operate = false;
+      Introduce(session, introduction);
       return {};
     }
     if (nobody_commands) return {CommandResult::Outcome::kRefused, backend_.why_no_command};
@@ -167,7 +169,8 @@ void LiveHub::Command(const std::shared_ptr<LiveSession>& session, json message)
     return refuse(Outcome::kMalformed, "only type, id, channel and body belong in a command");
   if (!backend_.why_no_command.empty()) return refuse(Outcome::kRefused, backend_.why_no_command);
   // Who commands without a word of introduction is a program, most likely alone.
-  if (session->person == 0) Introduce(session, {.may_operate = session->rights.operate});
+  if (session->person == 0)
+    Introduce(session, {.name = session->visitor.name, .may_operate = session->visitor.rights.operate});
   if (const std::string why_not = desk_.WhyNot(session->person); !why_not.empty()) {
     return refuse(Outcome::kRefused, why_not);
   }

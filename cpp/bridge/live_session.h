@@ -10,7 +10,8 @@
 #include <memory>
 #include <string>
 
-#include "bridge/http_router.h"
+#include "bridge/doorkeeper.h"
+#include "bridge/http_types.h"
 #include "bridge/outbox.h"
 
 namespace skein::bridge {
@@ -36,12 +37,15 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   int waiting_commands = 0;
   /// Who is at the other end, for the control desk; 0: nobody has said yet.
   int person = 0;
-  /// What that one may do.
-  Rights rights;
+  /// The token that it came with, and whose that is.
+  std::string secret;
+  Visitor visitor;
+
+  /// Ends the connection at once.
+  void Cut();
 
  private:
   void WriteNext();
-  void Cut();
 
   boost::beast::websocket::stream<boost::beast::tcp_stream> socket_;
   Outbox outbox_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "access/tokens.h"
 #include "bridge/access_rules.h"
 #include "bridge/recording_options.h"
 #include "bridge/static_files.h"
@@ -22,9 +23,18 @@ int main(int argc, char** argv) {
   std::string web_folder;
   std::string tiles;
   node.app()
-      .add_option("--listen", options.listen,
-                  "Address to listen on: anybody who reaches it may command the fleet")
+      .add_option("--listen", options.listen, "Address to listen on; one that others reach needs --tokens")
       ->capture_default_str();
+  std::string tokens;
+  node.app()
+      .add_option(
+          "--tokens", tokens,
+          "File of the tokens that let people in, as skein token makes it; without FILE the one that it "
+          "makes by itself (" +
+              skein::access::DefaultTokensFile().string() + ")")
+      ->type_name("FILE")
+      ->expected(0, 1)
+      ->default_str(skein::access::DefaultTokensFile());
   node.app().add_option("--port", options.port, "TCP port, 0 for a free one")->capture_default_str();
   node.app()
       .add_option("--web", web_folder, "Folder of the built web app (default: the project's own)")
@@ -63,6 +73,7 @@ int main(int argc, char** argv) {
         throw std::runtime_error("--web " + web_folder + ": holds no index.html");
       }
     }
+    options.tokens_file = tokens;
     if (!tiles.empty()) {
       options.tiles.emplace(tiles);
       options.hello.tiles = options.tiles->Description();

@@ -15,7 +15,7 @@ WebBridge::WebBridge(bus::Bus& bus, bus::LiveExecutor& executor, const BridgeOpt
       events_(bus),
       server_(web_context_, options.listen, options.port,
               {options.web_folder, options.allowed_hosts, options.hello.tile_url, options.tiles,
-               options.make_recordings ? options.make_recordings() : nullptr},
+               options.make_recordings ? options.make_recordings() : nullptr, options.tokens_file},
               MakeBackend(executor, options.hello.replay != nullptr)),
       port_(server_.port()),
       web_thread_([this] { web_context_.run(); }) {}
@@ -37,6 +37,7 @@ Backend WebBridge::MakeBackend(bus::LiveExecutor& executor, bool replay) {
   Backend backend;
   if (replay) backend.why_no_command = "this is a replay: nothing can be commanded";
   backend.snapshot = ask([this] { return mirror_.Snapshot(); });
+  backend.health = ask([this] { return Dump(mirror_.Health()); });
   backend.state = ask([this] { return Dump(mirror_.State()); });
   backend.vehicles = ask([this] { return Dump(mirror_.Vehicles()); });
   backend.history = [this, &executor](const HistoryQuery& query, const Backend::Reply<std::string>& reply) {

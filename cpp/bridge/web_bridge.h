@@ -29,6 +29,7 @@ struct BridgeOptions {
   std::uint16_t port = 8080;  ///< 0: any that is free
   std::filesystem::path web_folder;
   std::vector<std::string> allowed_hosts;
+  std::filesystem::path tokens_file;  ///< of the tokens that are demanded, "": none
   std::optional<MapTiles> tiles;
   /// Makes what serves recordings, owned by the bridge alone (its threads end with it); none: there are none.
   std::function<std::shared_ptr<const Recordings>()> make_recordings;

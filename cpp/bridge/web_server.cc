@@ -40,7 +40,14 @@ constexpr std::chrono::milliseconds kLookPeriod{250};
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1u << 20;
 
-Tcp::acceptor Listen(asio::io_context& context, const std::string& address, std::uint16_t port) {
+Tcp::acceptor Listen(asio::io_context& context, const std::string& address, std::uint16_t port,
+                     bool demands_tokens) {
+  if (!demands_tokens && !IsLoopback(address)) {
+    throw bus::StartError(
+        "--listen " + address +
+        " lets others than this host in, and whoever gets in commands the fleet: make tokens "
+        "(skein token new NAME --role operator), and start with --tokens");
+  }
   const std::string where = address + ":" + std::to_string(port);
   Error error;
   const auto ip = asio::ip::make_address(address == "localhost" ? "127.0.0.1" : address, error);
@@ -100,10 +107,12 @@ asio::awaitable<void> Close(beast::tcp_stream& stream) {
 WebServer::WebServer(asio::io_context& context, const std::string& address, std::uint16_t port,
                      const RouterOptions& options, const Backend& backend)
     : context_(context),
-      acceptor_(Listen(context, address, port)),
+      doorkeeper_(options.tokens_file),
+      acceptor_(Listen(context, address, port, doorkeeper_.demands_tokens())),
       recordings_(options.recordings),
-      router_(options, backend, [this](const HttpHead& head) { return WhyNot(head); }),
+      router_(options, backend, doorkeeper_, [this](const HttpHead& head) { return WhyNot(head); }),
       hub_(backend) {
+  doorkeeper_.SetTell(backend.tell);
   asio::co_spawn(context_, AcceptAll(), asio::detached);
   asio::co_spawn(context_, LookAfterPeople(), asio::detached);
 }
@@ -119,7 +128,11 @@ asio::awaitable<void> WebServer::AcceptAll() {
       co_await pause.async_wait(kAwait);
       continue;
     }
-    if (connections.use_count() > kMaxConnections) continue;
+    if (connections.use_count() > kMaxConnections) {
+      if (idle_.empty()) continue;
+      idle_.begin()->second->close();
+      idle_.erase(idle_.begin());
+    }
     asio::co_spawn(context_, Serve(std::move(socket), connections), [](std::exception_ptr failure) {
       if (!failure) return;
       try {
@@ -137,6 +150,7 @@ asio::awaitable<void> WebServer::LookAfterPeople() {
     pause.expires_after(kLookPeriod);
     co_await pause.async_wait(kAwait);
     hub_.Look();
+    if (doorkeeper_.Refresh()) CutWhoMayNoMore();
   }
 }
 
@@ -144,7 +158,9 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
   Error error;
   const Tcp::endpoint local = socket.local_endpoint(error);
   if (error) co_return;
-  const std::string local_address = local.address().to_string();
+  const Tcp::endpoint remote = socket.remote_endpoint(error);
+  if (error) co_return;
+  const Caller caller{local.address().to_string(), local.port(), remote.address().to_string()};
   socket.set_option(Tcp::no_delay(true), error);
   beast::tcp_stream stream(std::move(socket));
   beast::flat_buffer buffer(kMaxHeaderBytes + 64 * 1024);
@@ -153,11 +169,14 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
     parser.header_limit(kMaxHeaderBytes);
     parser.body_limit(kMaxBodyBytes);
     stream.expires_after(kHeaderTime);
+    const std::int64_t idle = ++last_idle_;
+    idle_[idle] = &stream;
     std::tie(error, std::ignore) = co_await http::async_read_header(stream, buffer, parser, kAwait);
+    idle_.erase(idle);
     std::optional<HttpResponse> response;
     if (!error) {
       const bool upgrade = beast::websocket::is_upgrade(parser.get());
-      response = router_.TurnAway(parser.get(), local_address, upgrade);
+      response = router_.TurnAway(parser.get(), caller, upgrade);
       if (!response && upgrade) {
         co_await ServeLive(std::move(stream), parser.release());
         co_return;
@@ -187,7 +206,7 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
       if (!status) break;
       response = router_.Plain(*status, "The request cannot be read: " + error.message() + ".");
     } else if (!response) {
-      response = co_await Answer(request, stream.socket());
+      response = co_await Answer(request, caller, stream.socket());
     }
     // A body that was not read would be taken for the next request.
     keep_alive = whole && request.keep_alive();
@@ -198,7 +217,8 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
   co_await Close(stream);
 }
 
-asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, Tcp::socket& from) {
+asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, const Caller& caller,
+                                                Tcp::socket& from) {
   // The answer may come after this connection is gone, so what it touches is shared.
   struct Pending {
     asio::steady_timer changed;
@@ -208,7 +228,7 @@ asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, Tcp:
   };
   const auto pending =
       std::make_shared<Pending>(Pending{asio::steady_timer(context_, kAnswerTime), std::nullopt});
-  router_.Answer(request, pending->gone, [pending](HttpResponse response) {
+  router_.Answer(request, caller, pending->gone, [pending](HttpResponse response) {
     pending->response = std::move(response);
     pending->changed.cancel();
   });
@@ -232,10 +252,13 @@ asio::awaitable<HttpResponse> WebServer::Answer(const HttpRequest& request, Tcp:
 
 asio::awaitable<void> WebServer::ServeLive(beast::tcp_stream stream, HttpRequest request) {
   const auto session = std::make_shared<LiveSession>(std::move(stream));
-  session->rights = RightsOf(request);
+  session->secret = doorkeeper_.SecretOf(request, port());
+  session->visitor = doorkeeper_.Identify(session->secret);
   const std::string recording = router_.recordings().Watched(View(request.target()));
   const bool accepted = co_await session->Accept(request);
   if (!accepted) co_return;
+  std::erase_if(live_, [](const auto& weak) { return weak.expired(); });
+  live_.push_back(session);
   if (!recording.empty()) {
     co_await ServeRecording(session, recording);
     co_return;
@@ -262,9 +285,18 @@ asio::awaitable<void> WebServer::ServeRecording(const std::shared_ptr<LiveSessio
 }
 
 std::string WebServer::WhyNot(const HttpHead& head) const {
-  if (!RightsOf(head).operate) return "this session may only look";
+  if (!doorkeeper_.Identify(doorkeeper_.SecretOf(head, port())).rights.operate)
+    return "this session may only look";
   if (recordings_ && !recordings_->live_bus) return "";
   return hub_.WhyNot(std::string(View(head["Control-Token"])));
+}
+
+void WebServer::CutWhoMayNoMore() {
+  for (const auto& weak : live_) {
+    const auto session = weak.lock();
+    // It comes back, and is let in or not.
+    if (session && doorkeeper_.Identify(session->secret).rights != session->visitor.rights) session->Cut();
+  }
 }
 
 }  // namespace skein::bridge

@@ -10,5 +10,7 @@ namespace skein::bus {
 /// not know.
 /// @param receive_buffer_bytes of Transport.
 void StartHeartbeat(Bus& bus, std::int64_t receive_buffer_bytes = 0);
+/// Sends one now.
+void SendHeartbeat(Bus& bus, std::int64_t receive_buffer_bytes);
 
 }  // namespace skein::bus

@@ -5,11 +5,30 @@
 
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "bus/heartbeat.h"
+#include "bus/only_one.h"
 
 namespace skein::bus {
+namespace {
+
+/// False when a file or an option is bad, which is printed then. What is wrong outside of the program is
+/// thrown.
+bool Succeeds(const std::string& name, const std::function<void()>& start) {
+  try {
+    start();
+    return true;
+  } catch (const StartError&) {
+    throw;
+  } catch (const std::exception& error) {
+    std::cerr << name << ": " << error.what() << '\n';
+    return false;
+  }
+}
+
+}  // namespace
 
 void StartLogging(const std::string& node, const std::string& level) {
   spdlog::set_default_logger(spdlog::stderr_logger_mt(node));
@@ -43,21 +62,25 @@ int NodeMain::Run(int argc, char** argv, const MakeNode& make_node) {
 }
 
 int NodeMain::RunLive(const MakeNode& make_node) {
+  if (!Succeeds(name_, [&] {
+        if (read_) read_();
+      }))
+    return kExitUsage;
   const Transport transport = MakeTransport(lcm_url_);
+  if (only_one_ && !AwaitTurn(transport, name_)) return kExitGood;
   LiveExecutor executor(transport.lcm);
   Bus bus(transport.lcm, name_, executor);
   StartHeartbeat(bus, transport.receive_buffer_bytes);
+  std::optional<Turn> turn;
+  if (only_one_) turn.emplace(bus, transport.receive_buffer_bytes, [&executor] { executor.Stop(); });
   std::shared_ptr<void> node;
-  try {
-    node = make_node(bus, executor);
-  } catch (const StartError&) {
-    throw;
-  } catch (const std::exception& error) {
-    std::cerr << name_ << ": " << error.what() << '\n';
-    return kExitUsage;
-  }
+  if (!Succeeds(name_, [&] { node = make_node(bus, executor); })) return kExitUsage;
   spdlog::info("runs on {}", lcm_url_);
   executor.Run();
+  if (turn && turn->over()) {
+    std::cerr << name_ << ": another " << name_ << " has taken over: this one ends\n";
+    return kExitFailed;
+  }
   spdlog::info("ends");
   return kExitGood;
 }

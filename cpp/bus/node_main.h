@@ -39,6 +39,14 @@ class NodeMain {
   /// For an option that replaces --lcm-url.
   void SetLcmUrl(std::string url) { lcm_url_ = std::move(url); }
 
+  /// Of this node there is to be one alone on a bus: another one that is started waits until the first is
+  /// gone (bus/only_one.h). @param read called before: reads the files of its options, lest what is wrong
+  /// with them is found only when it takes over. What it throws is taken as that of `make_node` is.
+  void OnlyOne(std::function<void()> read) {
+    only_one_ = true;
+    read_ = std::move(read);
+  }
+
   /// Makes the node, runs until SIGINT or SIGTERM, destroys it. An exception of `make_node` is printed; it
   /// means a bad file or option (exit code 2), a StartError something outside of the program (1).
   using MakeNode = std::function<std::shared_ptr<void>(Bus& bus, LiveExecutor& executor)>;
@@ -51,6 +59,8 @@ class NodeMain {
   CLI::App app_;
   std::string lcm_url_ = DefaultUrl();
   std::string log_level_ = "info";
+  bool only_one_ = false;
+  std::function<void()> read_;
 };
 
 }  // namespace skein::bus

@@ -41,6 +41,8 @@ CommandLine::CommandLine() : app_("Commands a fleet from the shell and waits for
   log_.Add(app_, [this](LogCommandLine::Command command) { offline_command_ = std::move(command); });
   AddSpy();
   AddDrops();
+  AddDoctor();
+  token_.Add(app_, [this](TokenCommandLine::Command command) { offline_command_ = std::move(command); });
 }
 
 void CommandLine::AddLink() {
@@ -223,6 +225,19 @@ void CommandLine::AddSpy() {
   spy->add_flag("--json", spy_.json, "As JSON, a line for each table or message");
   spy->callback(
       [this] { command_ = [this](Station& station, std::ostream& out) { Spy(station, spy_, out); }; });
+}
+
+void CommandLine::AddDoctor() {
+  CLI::App* doctor = app_.add_subcommand(
+      "doctor", "What of this machine and of the bus will make trouble, and what to do about it");
+  doctor->add_option("--folder", doctor_.folder, "Where recordings go")->capture_default_str();
+  doctor->add_flag("--json", doctor_.json, "As JSON");
+  doctor->callback([this] {
+    offline_command_ = [this](std::ostream& out) {
+      doctor_.lcm_url = lcm_url_;
+      return Doctor(doctor_, out);
+    };
+  });
 }
 
 }  // namespace skein::cli

@@ -7,9 +7,11 @@
 
 #include "cli/alarms.h"
 #include "cli/commands.h"
+#include "cli/doctor.h"
 #include "cli/drops.h"
 #include "cli/log/log_command_line.h"
 #include "cli/spy.h"
+#include "cli/token_command_line.h"
 
 namespace skein::cli {
 
@@ -37,18 +39,21 @@ class CommandLine {
   void AddRecord();
   void AddSpy();
   void AddDrops();
+  void AddDoctor();
 
   CLI::App app_;
   std::string lcm_url_;
   Command command_;
   LogCommandLine::Command offline_command_;
   LogCommandLine log_;
+  TokenCommandLine token_;
   LinkOptions link_;
   PathOptions path_;
   StatusOptions status_;
   AlarmsOptions alarms_;
   SpyOptions spy_;
   DropsOptions drops_;
+  DoctorOptions doctor_;
   std::vector<std::string> alarm_ids_;
   double shelve_s_ = 60;
   std::vector<std::string> vehicles_;

@@ -12,7 +12,11 @@
 namespace skein::controller {
 
 FormationControllerNode::FormationControllerNode(bus::Bus& bus, const ControllerOptions& options)
-    : bus_(bus), options_(options), events_(bus), inbox_(bus) {
+    : bus_(bus),
+      options_(options),
+      events_(bus),
+      state_file_(options.state_file, "formation-controller 3", events_),
+      inbox_(bus) {
   bus::SubscribeChunks<fleet_roster_t>(
       bus_, bus::channel::kFleetRoster, [this](const fleet_roster_t& roster, int) { OnRoster(roster); },
       &events_);
@@ -26,7 +30,10 @@ FormationControllerNode::FormationControllerNode(bus::Bus& bus, const Controller
   });
   inbox_.Obey<path_command_t>(bus::channel::kCmdPath,
                               [this](const path_command_t& command) { return OnPathCommand(command); });
-  bus_.executor().Every(bus::kSecond / kRepeatParts, [this] { RepeatFormations(); });
+  bus_.executor().Every(bus::kSecond / kRepeatParts, [this] {
+    StartWaiting(kStartInAPart);
+    RepeatFormations();
+  });
   bus_.executor().Every(bus::kSecond, [this] { SaveState(); });
 }
 
@@ -43,6 +50,7 @@ void FormationControllerNode::OnRoster(const fleet_roster_t& roster) {
   // A fleet that starts anew knows nothing of what was flown before.
   tick_utime_ = 0;
   flights_.clear();
+  waiting_.clear();
   held_.clear();
   for (auto& [id, view] : fleet_) {
     view.state.reset();

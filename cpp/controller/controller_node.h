@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -16,10 +17,11 @@
 #include "bus/chunks.h"
 #include "bus/command_inbox.h"
 #include "bus/events.h"
+#include "bus/state_file.h"
 #include "config/scenario.h"
+#include "controller/controller_state.h"
 #include "controller/fleet_picture.h"
 #include "controller/formation_flight.h"
-#include "controller/state_file.h"
 
 namespace skein::controller {
 
@@ -56,14 +58,23 @@ class FormationControllerNode {
   // What starts and ends a flight (formation_start.cc).
   void TakeScenario(const std::string& name, bool again);
   void StartScenario();
+  void StartWaiting(std::size_t most);
+  void StartFromScenario(const config::FormationConfig& config);
   std::string StartFlight(const config::FormationConfig& config);
   std::optional<VirtualLeader> LeaderOverFleet(const std::vector<Slot>& slots, std::string& reason) const;
   bool RestoreState();
+  std::optional<ControllerState> ReadState();
+  /// None while there is nothing to be kept yet.
+  std::optional<ControllerState> StateNow() const;
+  /// Every second.
   void SaveState();
+  /// What an operator has been promised: on the disk when it returns.
+  void SaveStateNow();
 
   // What operators ask for (operator_commands.cc).
   bus::Answer OnFormationCommand(const formation_command_t& command);
   bus::Answer OnPathCommand(const path_command_t& command);
+  std::string WhyNotYet() const;
   bus::Answer Apply(const formation_t& message);
   std::string CloseSlots(const config::FormationConfig& config) const;
   std::string WhyNot(const config::FormationConfig& config) const;
@@ -78,24 +89,29 @@ class FormationControllerNode {
 
   /// Parts of a second; FORMATION and PATH of each formation go out in one of them.
   static constexpr std::size_t kRepeatParts = 20;
+  /// Planning a path takes up to 20 ms, while nobody reads the bus: so many formations of a scenario are
+  /// started at once, and so many more in each part of a second.
+  static constexpr std::size_t kStartAtOnce = 10;
+  static constexpr std::size_t kStartInAPart = 2;
 
   bus::Bus& bus_;
   ControllerOptions options_;
   bus::Events events_;
+  bus::StateFile state_file_;
   bus::CommandInbox inbox_;
 
   FleetPicture fleet_;
   std::map<int, FormationFlight> flights_;
-  std::map<int, VehicleState> held_;   ///< UAVs that are in no formation, and what they hold
-  bus::Utime start_utime_ = 0;         ///< t = 0 of the scenario; 0: no roster yet
-  std::int64_t fleet_session_id_ = 0;  ///< of FLEET_STATE
+  std::deque<config::FormationConfig> waiting_;  ///< formations of the scenario that are not started yet
+  std::map<int, VehicleState> held_;             ///< UAVs that are in no formation, and what they hold
+  bus::Utime start_utime_ = 0;                   ///< t = 0 of the scenario; 0: no roster yet
+  std::int64_t fleet_session_id_ = 0;            ///< of FLEET_STATE
   bus::Utime tick_utime_ = 0;
   std::int64_t tick_ = 0;
   std::int64_t ticks_heard_ = 0;
   std::size_t repeat_part_ = 0;  ///< of kRepeatParts, the next
   std::int64_t request_id_ = 0;
   std::int64_t sequence_ = 0;
-  bool state_unwritable_ = false;
 };
 
 }  // namespace skein::controller

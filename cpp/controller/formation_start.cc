@@ -67,25 +67,35 @@ void FormationControllerNode::TakeScenario(const std::string& name, bool again) 
 
 void FormationControllerNode::StartScenario() {
   if (!options_.scenario) return;
-  for (const config::FormationConfig& config : options_.scenario->formations) {
-    PathResult result = ScenarioPath(config, LimitsOfSlots(fleet_, config.slots));
-    const std::string refused = result.reason;
-    if (!result.path) {
-      const config::LeaderConfig& leader = config.leader;
-      result.path =
-          Path::Straight({leader.east_m, leader.north_m}, leader.course_rad, leader.up_m, leader.speed_m_s);
-    }
-    const double start_arc = result.path->start_arc_m();
-    FormationFlight flight(config, VirtualLeader(*result.path, start_arc, bus::ToSeconds(start_utime_)),
-                           AirspaceOf(options_.scenario));
-    if (config.path) flight.SetWaypoints(config.path->waypoints);
-    const auto& added = flights_.emplace(config.id, std::move(flight)).first->second;
-    if (!refused.empty()) {
-      Tell(added,
-           {event_t::WARNING, "path_refused", 0, "flies straight on: its path cannot be flown: " + refused});
-    }
-    SendFormation(added);
+  waiting_.assign(options_.scenario->formations.begin(), options_.scenario->formations.end());
+  StartWaiting(kStartAtOnce);
+}
+
+void FormationControllerNode::StartWaiting(std::size_t most) {
+  for (; most > 0 && !waiting_.empty(); --most) {
+    StartFromScenario(waiting_.front());
+    waiting_.pop_front();
   }
+}
+
+void FormationControllerNode::StartFromScenario(const config::FormationConfig& config) {
+  PathResult result = ScenarioPath(config, LimitsOfSlots(fleet_, config.slots));
+  const std::string refused = result.reason;
+  if (!result.path) {
+    const config::LeaderConfig& leader = config.leader;
+    result.path =
+        Path::Straight({leader.east_m, leader.north_m}, leader.course_rad, leader.up_m, leader.speed_m_s);
+  }
+  const double start_arc = result.path->start_arc_m();
+  FormationFlight flight(config, VirtualLeader(*result.path, start_arc, bus::ToSeconds(start_utime_)),
+                         AirspaceOf(options_.scenario));
+  if (config.path) flight.SetWaypoints(config.path->waypoints);
+  const auto& added = flights_.emplace(config.id, std::move(flight)).first->second;
+  if (!refused.empty()) {
+    Tell(added,
+         {event_t::WARNING, "path_refused", 0, "flies straight on: its path cannot be flown: " + refused});
+  }
+  SendFormation(added);
 }
 
 std::string FormationControllerNode::StartFlight(const config::FormationConfig& config) {
@@ -131,9 +141,10 @@ std::optional<VirtualLeader> FormationControllerNode::LeaderOverFleet(const std:
   return VirtualLeader(path, path.start_arc_m(), bus::ToSeconds(tick_utime_));
 }
 
-void FormationControllerNode::SaveState() {
-  // Without a roster nothing has been taken up yet, and the file still holds what is to be.
-  if (options_.state_file.empty() || start_utime_ == 0 || tick_utime_ == 0) return;
+std::optional<ControllerState> FormationControllerNode::StateNow() const {
+  // Without a roster nothing has been taken up yet, and the file still holds what is to be. Who goes on from
+  // the state starts nothing from the scenario: so all must have been started.
+  if (!state_file_.kept() || start_utime_ == 0 || tick_utime_ == 0 || !waiting_.empty()) return std::nullopt;
   ControllerState state;
   state.start_utime = start_utime_;
   for (const auto& [id, flight] : flights_) {
@@ -147,18 +158,28 @@ void FormationControllerNode::SaveState() {
     }
     state.formations.push_back(std::move(saved));
   }
-  try {
-    WriteState(options_.state_file, state);
-    state_unwritable_ = false;
-  } catch (const std::exception& error) {
-    // Flying goes on without it; say so once.
-    if (!state_unwritable_) events_.Tell(event_t::CAUTION, "state_not_saved", error.what());
-    state_unwritable_ = true;
-  }
+  return state;
+}
+
+void FormationControllerNode::SaveState() {
+  if (const auto state = StateNow()) state_file_.Save(Encode(*state));
+}
+
+void FormationControllerNode::SaveStateNow() {
+  if (const auto state = StateNow()) state_file_.SaveNow(Encode(*state));
+}
+
+std::optional<ControllerState> FormationControllerNode::ReadState() {
+  if (options_.state) return options_.state;
+  const auto bytes = state_file_.Read();
+  if (!bytes) return std::nullopt;
+  auto state = DecodeControllerState(*bytes);
+  if (!state) state_file_.SetAside("it holds no state of formations");
+  return state;
 }
 
 bool FormationControllerNode::RestoreState() {
-  const auto state = options_.state ? options_.state : ReadState(options_.state_file);
+  const auto state = ReadState();
   if (!state || state->start_utime != start_utime_) return false;
   for (const FormationState& saved : state->formations) {
     const auto config = ToFormationConfig(saved.formation);

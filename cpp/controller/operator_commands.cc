@@ -17,8 +17,15 @@ bus::Answer AnswerOf(const std::string& why_not) {
 
 }  // namespace
 
+std::string FormationControllerNode::WhyNotYet() const {
+  if (start_utime_ == 0) return "no fleet is known yet: no FLEET_ROSTER has come";
+  if (waiting_.empty()) return "";
+  return fmt::format("{} formations of the scenario are still to be started: try again in {} s",
+                     waiting_.size(), 1 + waiting_.size() / (kStartInAPart * kRepeatParts));
+}
+
 bus::Answer FormationControllerNode::OnFormationCommand(const formation_command_t& command) {
-  if (start_utime_ == 0) return bus::Answer::Refused("no fleet is known yet: no FLEET_ROSTER has come");
+  if (const std::string why_not = WhyNotYet(); !why_not.empty()) return bus::Answer::Refused(why_not);
   if (command.action == formation_command_t::ACTION_APPLY) return Apply(command.formation);
 
   const int id = command.formation.formation_id;
@@ -42,7 +49,7 @@ bus::Answer FormationControllerNode::OnFormationCommand(const formation_command_
       gone.num_slots = 0;
       flights_.erase(flight);
       bus_.Publish(bus::channel::kFormation, gone);
-      SaveState();
+      SaveStateNow();
       return bus::Answer::Accepted();
     }
     default:
@@ -50,7 +57,7 @@ bus::Answer FormationControllerNode::OnFormationCommand(const formation_command_
   }
   if (why_not.empty()) {
     SendFormation(flight->second);
-    SaveState();
+    SaveStateNow();
   }
   return AnswerOf(why_not);
 }
@@ -71,7 +78,7 @@ bus::Answer FormationControllerNode::Apply(const formation_t& message) {
                 fmt::format("{} of {} UAVs, control {}{}{}", Name(config.shape), config.slots.size(),
                             config.control, remark.empty() ? "" : "; ", remark)});
   SendFormation(flight);
-  SaveState();
+  SaveStateNow();
   return bus::Answer::Accepted(remark);
 }
 
@@ -119,7 +126,9 @@ std::optional<PathPlan> FormationControllerNode::PlanPath(const path_command_t& 
 bus::Answer FormationControllerNode::OnPathCommand(const path_command_t& command) {
   const auto flight = flights_.find(command.formation_id);
   if (flight == flights_.end()) {
-    return bus::Answer::Refused(fmt::format("there is no formation {}", command.formation_id));
+    const std::string why_not = WhyNotYet();
+    return bus::Answer::Refused(
+        why_not.empty() ? fmt::format("there is no formation {}", command.formation_id) : why_not);
   }
   const std::string why_not = flight->second.TakePath(bus::ToWaypoints(command), command.closed, fleet_);
   if (why_not.empty()) {
@@ -128,7 +137,7 @@ bus::Answer FormationControllerNode::OnPathCommand(const path_command_t& command
                               ? std::string("flies straight on: no path")
                               : fmt::format("flies a new path of {} waypoints", command.num_waypoints)});
     SendFormation(flight->second);
-    SaveState();
+    SaveStateNow();
   }
   return AnswerOf(why_not);
 }

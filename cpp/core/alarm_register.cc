@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 namespace skein {
 
@@ -115,6 +116,14 @@ std::vector<Alarm> AlarmRegister::open() const {
   };
   std::ranges::sort(alarms, {}, urgency);
   return alarms;
+}
+
+void AlarmRegister::Restore(const std::vector<Alarm>& open, std::deque<Alarm> history,
+                            std::int64_t newest_id) {
+  for (const Alarm& alarm : open) open_[alarm.condition.key] = alarm;
+  history_ = std::move(history);
+  newest_id_ = newest_id;
+  ++revision_;
 }
 
 AlarmRegister::Counts AlarmRegister::counts() const {

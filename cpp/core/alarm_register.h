@@ -94,6 +94,9 @@ class AlarmRegister {
   };
   Counts counts() const;
 
+  /// Goes on with the alarms of an earlier register. Only at the start, before anything is raised.
+  void Restore(const std::vector<Alarm>& open, std::deque<Alarm> history, std::int64_t newest_id);
+
   std::int64_t newest_id() const { return newest_id_; }
   /// Rises with every change.
   std::int64_t revision() const { return revision_; }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bus/executor.h"
-#include "controller/state_file.h"
+#include "controller/controller_state.h"
 #include "core/path.h"
 #include "core/proximity.h"
 #include "core/track.h"

@@ -3,11 +3,13 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <skein/alarm_list_t.hpp>
 #include <utility>
 
 #include "bus/channels.h"
 #include "bus/chunks.h"
+#include "bus/saved_bytes.h"
 
 namespace skein::monitor {
 namespace {
@@ -47,6 +49,25 @@ alarm_t ToMessage(const Alarm& alarm) {
   return message;
 }
 
+Alarm ToAlarm(const alarm_t& message) {
+  Alarm alarm;
+  alarm.id = message.id;
+  alarm.condition = {message.condition,
+                     static_cast<AlertLevel>(message.severity),
+                     message.text,
+                     message.vehicle_id,
+                     message.other_vehicle_id,
+                     message.formation_id};
+  alarm.raised_utime = message.raised_utime;
+  if (message.cleared_utime != 0) alarm.ended_utime = message.cleared_utime;
+  if (message.acknowledged_utime != 0)
+    alarm.acknowledged = {message.acknowledged_utime, message.acknowledged_by};
+  if (message.shelved_until_utime != 0)
+    alarm.shelved_until = {message.shelved_until_utime, message.shelved_by};
+  alarm.over = message.state == alarm_t::OVER;
+  return alarm;
+}
+
 void SetCounts(alarm_list_t& list, const AlarmRegister::Counts& counts) {
   const auto of = [](const auto& by_severity, AlertLevel severity) {
     return by_severity.at(static_cast<std::size_t>(severity));
@@ -74,18 +95,77 @@ std::string Count(std::size_t alarms) { return fmt::format("{} alarm{}", alarms,
 
 }  // namespace
 
-AlarmDesk::AlarmDesk(bus::Bus& bus, bus::Events& events) : bus_(bus), events_(events), inbox_(bus) {
+AlarmDesk::AlarmDesk(bus::Bus& bus, bus::Events& events, const std::filesystem::path& state_file)
+    : bus_(bus), events_(events), state_file_(state_file, "collision-monitor 1", events), inbox_(bus) {
+  Restore();
   inbox_.Obey<alarm_command_t>(bus::channel::kCmdAlarm,
                                [this](const alarm_command_t& command) { return Obey(command); });
   bus.executor().Every(kLookPeriod, [this] { Look(); });
 }
 
-void AlarmDesk::Raise(const AlarmCondition& condition) { alarms_.Raise(Now(), condition); }
-void AlarmDesk::End(const std::string& key) { alarms_.End(Now(), key); }
+void AlarmDesk::Raise(const AlarmCondition& condition) {
+  unconfirmed_.erase(condition.key);
+  alarms_.Raise(Now(), condition);
+}
+
+void AlarmDesk::End(const std::string& key) {
+  unconfirmed_.erase(key);
+  alarms_.End(Now(), key);
+}
 
 void AlarmDesk::Look() {
   alarms_.Advance(Now());
-  if (alarms_.revision() != sent_revision_ || Now() - sent_ >= kRepeatPeriod) Publish();
+  if (!unconfirmed_.empty() && Now() >= confirm_by_) {
+    for (const std::string& key : std::exchange(unconfirmed_, {})) alarms_.End(Now(), key);
+  }
+  const bool changed = alarms_.revision() != sent_revision_;
+  if (changed || Now() - sent_ >= kRepeatPeriod) Publish();
+  // Also when nothing has changed: the time in it says that it is not of another flight.
+  if (state_file_.kept()) state_file_.Save(Encoded());
+}
+
+std::string AlarmDesk::Encoded() const {
+  bus::SavedBytes bytes;
+  bytes.Add(Now());
+  bytes.Add(alarms_.newest_id());
+  alarm_list_t list{};
+  for (const Alarm& alarm : alarms_.open()) list.alarms.push_back(ToMessage(alarm));
+  for (const Alarm& alarm : alarms_.history()) list.alarms.push_back(ToMessage(alarm));
+  const std::vector<alarm_list_t> chunks = bus::Split(list);
+  bytes.Add(static_cast<std::int64_t>(chunks.size()));
+  for (const alarm_list_t& chunk : chunks) bytes.Add(chunk);
+  return bytes.Take();
+}
+
+void AlarmDesk::Restore() {
+  const auto state = state_file_.Read();
+  if (!state) return;
+  bus::SavedReader reader(*state);
+  const auto saved = reader.Number();
+  const auto newest_id = reader.Number();
+  const auto chunks = reader.Number();
+  if (!chunks) return state_file_.SetAside("it holds no alarms");
+  std::vector<Alarm> open;
+  std::deque<Alarm> history;
+  for (std::int64_t i = 0; i < *chunks; ++i) {
+    const auto chunk = reader.Take<alarm_list_t>();
+    if (!chunk) return state_file_.SetAside("it holds no alarms");
+    for (const alarm_t& message : chunk->alarms) {
+      const Alarm alarm = ToAlarm(message);
+      if (alarm.over)
+        history.push_back(alarm);
+      else
+        open.push_back(alarm);
+    }
+  }
+  if (std::abs(Now() - *saved) > kOldestState) return;
+  for (const Alarm& alarm : open) {
+    if (!alarm.ended_utime) unconfirmed_.insert(alarm.condition.key);
+  }
+  confirm_by_ = Now() + kConfirm;
+  alarms_.Restore(open, std::move(history), *newest_id);
+  events_.Tell(event_t::ADVISORY, "monitor_restarted",
+               fmt::format("the monitor is back, with {}", Count(open.size())));
 }
 
 void AlarmDesk::Publish() {
@@ -140,6 +220,7 @@ bus::Answer AlarmDesk::Obey(const alarm_command_t& command) {
     events_.Tell(event_t::INFO, std::string("alarm_") + Done(command.action),
                  fmt::format("{}{}{}: {}", Done(command.action), how_long, by, what));
     Publish();
+    SaveNow();
   }
   return bus::Answer::Accepted(remark);
 }
@@ -150,6 +231,7 @@ bus::Answer AlarmDesk::AcknowledgeAll(const alarm_command_t& command, const std:
   events_.Tell(event_t::INFO, "alarm_acknowledged",
                fmt::format("acknowledged{}: {}", by, Count(static_cast<std::size_t>(count))));
   Publish();
+  SaveNow();
   return bus::Answer::Accepted();
 }
 

@@ -69,9 +69,10 @@ void Check(const CollisionMonitorOptions& options) {
 CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitorOptions& options)
     : bus_(bus),
       events_(bus),
-      alarms_(bus, events_),
+      alarms_(bus, events_, options.state_file),
       link_alarms_(alarms_),
       silence_(bus, alarms_),
+      clocks_(bus, alarms_),
       options_((Check(options), options)),
       membership_(bus.executor().Now(), options.strangers, options.formations),
       levels_from_(bus.executor().Now() + kSettling) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -14,6 +15,7 @@
 #include "bus/events.h"
 #include "core/alert_levels.h"
 #include "monitor/alarm_desk.h"
+#include "monitor/clock_watch.h"
 #include "monitor/link_alarms.h"
 #include "monitor/membership.h"
 #include "monitor/silence_watch.h"
@@ -29,6 +31,8 @@ struct CollisionMonitorOptions {
   /// The options of a fleet that has started anew, by the scenario's name in its roster; none: not found.
   /// Empty: these are for every flight.
   std::function<std::optional<CollisionMonitorOptions>(const std::string& name)> find_options{};
+  /// Where the alarms are kept, so that a monitor that died goes on with them; empty: nowhere.
+  std::filesystem::path state_file{};
   LinkTimes link_times;
   UncertaintyGrowth uncertainty;
 };
@@ -70,6 +74,7 @@ class CollisionMonitorNode {
   AlarmDesk alarms_;
   LinkAlarms link_alarms_;
   SilenceWatch silence_;
+  ClockWatch clocks_;
   CollisionMonitorOptions options_;
   Membership membership_;
   ProximityIndex index_;  ///< of the sweep that is under way

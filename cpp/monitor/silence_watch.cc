@@ -5,19 +5,21 @@
 #include <skein/heartbeat_t.hpp>
 
 #include "bus/channels.h"
+#include "bus/only_one.h"
 
 namespace skein::monitor {
 namespace {
 
 constexpr bus::Utime kLookPeriod = bus::kSecond / 2;
 constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;  // three heartbeats
+constexpr std::string_view kNodeSilent = "node_silent:";
 constexpr const char* kController = "formation-controller";
 // Whoever can send HEARTBEAT can invent names.
 constexpr std::size_t kMostNodes = 100;
 
 AlarmCondition NodeSilent(const std::string& node) {
   const bool steers = node == kController;
-  return {"node_silent:" + node, steers ? AlertLevel::kWarning : AlertLevel::kCaution,
+  return {std::string(kNodeSilent) + node, steers ? AlertLevel::kWarning : AlertLevel::kCaution,
           fmt::format("{} has fallen silent{}", node, steers ? ": nobody steers the formations" : "")};
 }
 
@@ -26,8 +28,13 @@ AlarmCondition NodeSilent(const std::string& node) {
 SilenceWatch::SilenceWatch(bus::Bus& bus, AlarmDesk& alarms) : bus_(bus), alarms_(alarms) {
   bus.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [this](const heartbeat_t& heartbeat) {
     const std::string& node = heartbeat.heartbeat_node;
+    if (bus::IsStandby(node)) return;
     if (nodes_.size() < kMostNodes || nodes_.contains(node)) nodes_[node] = bus_.executor().Now();
   });
+  // Who was silent before this process was started anew is so until it is heard.
+  for (const std::string& key : alarms.unconfirmed()) {
+    if (key.starts_with(kNodeSilent)) nodes_[key.substr(kNodeSilent.size())] = 0;
+  }
   bus.executor().Every(kLookPeriod, [this] { Look(); });
 }
 

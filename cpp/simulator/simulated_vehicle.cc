@@ -39,6 +39,17 @@ SimulatedVehicle::SimulatedVehicle(const config::VehicleConfig& config, bus::Uti
   Hold();
 }
 
+void SimulatedVehicle::Recall(const Memory& memory) {
+  const vehicle_state_t& report = memory.report;
+  state_ = bus::ToVehicleState(report);
+  utime_ = report.utime;
+  session_id_ = report.command_session_id;
+  sequence_ = report.command_sequence;
+  payload_on_ = report.payload_on != 0;
+  input_ = memory.input;
+  commanded_ = memory.commanded;
+}
+
 void SimulatedVehicle::Hear(bus::Utime utime) {
   uplink_.Receive(utime - 1, [this](bus::Utime arrival, const UplinkMessage& message) {
     if (const auto* command = std::get_if<FlightCommand>(&message)) {

@@ -51,6 +51,15 @@ class SimulatedVehicle {
   void SetUplink(const LinkSetting& setting) { uplink_.Set(setting); }
   void SetDownlink(const LinkSetting& setting) { downlink_.Set(setting); }
 
+  /// What must not be lost when the simulator is killed.
+  struct Memory {
+    vehicle_state_t report;
+    AutopilotInput input;
+    std::optional<bus::Utime> commanded;
+  };
+  Memory Remember() const { return {Report(), input_, commanded_}; }
+  void Recall(const Memory& memory);
+
   /// The station sends something to it.
   void Send(bus::Utime now, const UplinkMessage& message) { uplink_.Send(now, message); }
 

@@ -1,5 +1,8 @@
 #include "simulator/simulator_node.h"
 
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
 #include <skein/event_t.hpp>
 #include <string>
 #include <tuple>
@@ -76,10 +79,11 @@ LinkChange ToLinkChange(const link_command_t& command) {
 FleetSimulatorNode::Flight::Flight(const SimulatorOptions& options, bus::Utime start, bus::Events& events)
     : start_utime(start),
       fleet(MakeFleet(options, start)),
-      links(fleet,
-            [&events](const SimulatedVehicle& vehicle, const std::string& code, const std::string& text) {
-              events.Tell(event_t::INFO, code, text, {.vehicle_id = vehicle.id()});
-            }),
+      links(
+          fleet,
+          [this, &events](const SimulatedVehicle& vehicle, const std::string& code, const std::string& text) {
+            if (tells) events.Tell(event_t::INFO, code, text, {.vehicle_id = vehicle.id()});
+          }),
       roster(bus::Split(MakeRoster(options.scenario, start))),
       roster_sent(roster.size()) {
   for (std::size_t i = 0; i < fleet.size(); ++i) {
@@ -89,12 +93,33 @@ FleetSimulatorNode::Flight::Flight(const SimulatorOptions& options, bus::Utime s
   links.AddTimeline(options.scenario.timeline, start, options.scenario.timeline_repeat_s);
 }
 
+void FleetSimulatorNode::Flight::Recall(const FlightState& state) {
+  tick = state.tick;
+  roster_due = tick;
+  // All that was asked of the links comes about once more, and nobody need be told again.
+  tells = false;
+  for (const LinkOrder& order : state.link_orders) {
+    links.RunUntil(order.utime);
+    links.Add(ToLinkChange(order.command), order.utime, order.command.start_utime);
+  }
+  links.RunUntil(start_utime + tick * kPeriod);
+  tells = true;
+  link_orders = state.link_orders;
+  for (std::size_t i = 0; i < fleet.size(); ++i) {
+    fleet[i].Recall(state.vehicles[i]);
+    motion.SetState(i, fleet[i].state());
+    motion.SetInput(i, fleet[i].input());
+  }
+}
+
 FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& options)
     : bus_(bus),
       options_(options),
       events_(bus),
+      state_file_(options.state_file, "fleet-simulator 1", events_),
       inbox_(bus),
-      flight_(std::make_unique<Flight>(options_, bus.executor().Now(), events_)) {
+      started_with_(options.scenario.file),
+      flight_(StartOrGoOn()) {
   bus_.Subscribe<fleet_command_t>(bus::channel::kCmdFleet,
                                   [this](const fleet_command_t& command) { Command(command); });
   inbox_.Obey<link_command_t>(bus::channel::kCmdLink,
@@ -107,6 +132,41 @@ FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& op
   bus_.executor().At(start_utime(), [this] { Tick(); });
   bus_.executor().Every(
       kPeriod, [this] { Tick(); }, start_utime());
+  if (state_file_.kept())
+    bus_.executor().Every(bus::kSecond, [this] { state_file_.Save(Encode(StateNow())); });
+}
+
+std::unique_ptr<FleetSimulatorNode::Flight> FleetSimulatorNode::StartOrGoOn() {
+  const bus::Utime now = bus_.executor().Now();
+  const auto bytes = state_file_.Read();
+  const auto state = bytes ? DecodeFlightState(*bytes) : std::nullopt;
+  if (bytes && !state) state_file_.SetAside("it holds no flight");
+  const bus::Utime gap = state ? now - (state->start_utime + state->tick * kPeriod) : 0;
+  if (!state || state->started_with != started_with_ || gap < -bus::kSecond || gap > kLongestGap)
+    return std::make_unique<Flight>(options_, now, events_);
+  if (state->scenario != started_with_) options_.scenario = config::LoadScenario(state->scenario);
+  options_.seed = state->seed;
+  auto flight = std::make_unique<Flight>(options_, state->start_utime, events_);
+  const bool same = std::ranges::equal(flight->fleet, state->vehicles, {}, &SimulatedVehicle::id,
+                                       [](const auto& memory) { return memory.report.id; });
+  if (!same) return std::make_unique<Flight>(options_, now, events_);  // the file was edited meanwhile
+  flight->Recall(*state);
+  events_.Tell(
+      event_t::ADVISORY, "simulator_restarted",
+      fmt::format("the simulator is back and goes on with the flight, {:.1f} s after it was last kept",
+                  bus::ToSeconds(gap)));
+  return flight;
+}
+
+FlightState FleetSimulatorNode::StateNow() const {
+  FlightState state{
+      started_with_, options_.scenario.file, options_.seed, start_utime(), tick(), flight_->link_orders, {}};
+  for (const SimulatedVehicle& vehicle : fleet()) state.vehicles.push_back(vehicle.Remember());
+  return state;
+}
+
+void FleetSimulatorNode::SaveNow() {
+  if (state_file_.kept()) state_file_.SaveNow(Encode(StateNow()));
 }
 
 void FleetSimulatorNode::Tick() {
@@ -198,7 +258,9 @@ bus::Answer FleetSimulatorNode::SetLink(const link_command_t& command) {
   }
   if (command.loss < 0 || command.loss > 1) return bus::Answer::Refused("loss must be 0 to 1");
   if (command.duration_s < 0) return bus::Answer::Refused("the duration must not be negative");
+  flight_->link_orders.push_back({bus_.executor().Now(), command});
   flight_->links.Add(ToLinkChange(command), bus_.executor().Now(), command.start_utime);
+  SaveNow();
   return bus::Answer::Accepted();
 }
 
@@ -232,6 +294,7 @@ bus::Answer FleetSimulatorNode::StartAnew(const simulation_command_t& command) {
   }
   options_ = std::move(options);
   flight_ = std::make_unique<Flight>(options_, start_utime() + (tick() + 1) * kPeriod, events_);
+  SaveNow();
   events_.Tell(event_t::INFO, "simulation_started",
                "the simulation starts anew: " + options_.scenario.name + ", " +
                    std::to_string(fleet().size()) + (fleet().size() == 1 ? " UAV" : " UAVs"));

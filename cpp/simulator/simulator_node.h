@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_roster_t.hpp>
@@ -14,8 +15,10 @@
 #include "bus/bus.h"
 #include "bus/command_inbox.h"
 #include "bus/events.h"
+#include "bus/state_file.h"
 #include "config/scenario.h"
 #include "core/fleet_motion.h"
+#include "simulator/flight_state.h"
 #include "simulator/link_schedule.h"
 #include "simulator/simulated_vehicle.h"
 
@@ -24,6 +27,8 @@ namespace skein::simulator {
 struct SimulatorOptions {
   config::Scenario scenario;
   std::uint64_t seed = 1;  ///< of all lossy and jittered links
+  /// Where the flight is kept, so that a simulator that died goes on with it; empty: nowhere.
+  std::filesystem::path state_file{};
 };
 
 /// A fleet of UAVs with their data links, and the gateway that puts them on the bus. Tick n stands for
@@ -33,6 +38,8 @@ struct SimulatorOptions {
 class FleetSimulatorNode {
  public:
   static constexpr bus::Utime kPeriod = 50'000;
+  /// A flight that was kept longer ago than this is not gone on with.
+  static constexpr bus::Utime kLongestGap = 60 * bus::kSecond;
 
   /// The first tick is now. @param bus outlives the node.
   FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& options);
@@ -49,18 +56,25 @@ class FleetSimulatorNode {
   /// All that a new flight begins without.
   struct Flight {
     Flight(const SimulatorOptions& options, bus::Utime start_utime, bus::Events& events);
+    /// Goes on with one that was kept; of the same scenario.
+    void Recall(const FlightState& state);
 
     bus::Utime start_utime;  ///< also the session on FLEET_ROSTER and FLEET_STATE
     std::int64_t tick = -1;
     std::vector<SimulatedVehicle> fleet;
     FleetMotion motion;  ///< of the fleet, in the same order
     std::unordered_map<int, std::size_t> index;
+    bool tells = true;  ///< of changes to links
     LinkSchedule links;
+    std::vector<LinkOrder> link_orders;  ///< that operators have given
     std::vector<fleet_roster_t> roster;  ///< in chunks
     std::size_t roster_sent;             ///< how many of them in this round
     std::int64_t roster_due = 0;         ///< tick of the next round
   };
 
+  std::unique_ptr<Flight> StartOrGoOn();
+  FlightState StateNow() const;
+  void SaveNow();
   void Tick();
   void Fly(std::int64_t tick);
   void PublishRoster();
@@ -74,7 +88,9 @@ class FleetSimulatorNode {
   bus::Bus& bus_;
   SimulatorOptions options_;
   bus::Events events_;
+  bus::StateFile state_file_;
   bus::CommandInbox inbox_;
+  std::string started_with_;  ///< the scenario's file
   std::unique_ptr<Flight> flight_;
   std::int64_t command_session_id_ = 0;
   std::int64_t command_request_id_ = 0;

@@ -18,8 +18,8 @@ START_TIMEOUT_S = 20
 STOP_TIMEOUT_S = 5
 # Without a recording, for want of room say, the flight begins all the same: the page tells.
 RECORDING_TIMEOUT_S = 2
-# A process that dies this often within this time is not started again.
-DEATHS, DEATHS_WITHIN_S = 5, 30
+# A process that dies this often in a row, each time so soon after its start, is not started again.
+SHORT_LIVES, SHORT_LIFE_S = 5, 5
 
 # Holds something to read once Ctrl-C or the like has asked to end; asking again changes nothing. The interpreter writes
 # it: a threading.Event that a signal sets is locked for ever when the signal comes while it is looked at or set.
@@ -38,6 +38,12 @@ def say(text):
     print(text, flush=True)
 
 
+def page_address(options):
+    """Where this machine's own browser finds the page."""
+    host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(options.listen, options.listen)
+    return f"http://[{host}]:{options.port}" if ":" in host else f"http://{host}:{options.port}"
+
+
 def pause(seconds=0.1):
     if select.select([asked_to_end], [], [], seconds)[0]:
         raise Interrupted
@@ -49,11 +55,13 @@ class Process:
     def __init__(self, name, command, output):
         self.name, self.command, self.output = name, command, output
         self.child = None
-        self.deaths = []
+        self.started = 0.0
+        self.short_lives = 0
 
     def start(self):
         # In a session of its own, Ctrl-C reaches it through us alone, so that the recorder can end last; and should
         # we be killed outright, the kernel ends it.
+        self.started = time.monotonic()
         with open(self.output, "ab") as output:
             self.child = subprocess.Popen(["setpriv", "--pdeathsig", "TERM", "--", *self.command],
                                           stdin=subprocess.DEVNULL, stdout=output, stderr=output,
@@ -85,10 +93,10 @@ class Process:
 
     def revive(self):
         """Starts it again after its death, or gives it up and returns False."""
-        now = time.monotonic()
-        self.deaths = [at for at in self.deaths if now - at < DEATHS_WITHIN_S] + [now]
-        if len(self.deaths) >= DEATHS:
-            say(f"{self.name} died {DEATHS} times within {DEATHS_WITHIN_S} s ({self.how_it_ended()}) "
+        lived_s = time.monotonic() - self.started
+        self.short_lives = self.short_lives + 1 if lived_s < SHORT_LIFE_S else 0
+        if self.short_lives >= SHORT_LIVES:
+            say(f"{self.name} died {SHORT_LIVES} times in a row within {SHORT_LIFE_S} s of its start ({self.how_it_ended()}) "
                 f"and is not started again; the others go on. Its last lines ({self.output}):\n{self.last_lines()}")
             return False
         say(f"{self.name} died ({self.how_it_ended()}): started again")
@@ -107,18 +115,23 @@ class Flight:
         binaries = options.root / "build" / "bin"
         scenario = ["--scenario", str(options.scenario)]
         tiles = ["--tiles", str(options.tiles)] if options.tiles else []
+        names = [argument for name in options.allow_host for argument in ("--allow-host", name)]
+        access = ["--listen", options.listen, *names, *(["--tokens"] if options.tokens else [])]
+
+        def state(program):
+            return ["--state-file", str(self.folder / f"{program}.state")]
 
         def node(program, *arguments):
             command = [str(binaries / program), "--lcm-url", options.lcm_url, *arguments]
             return Process(program, command, self.folder / f"{program}.txt")
 
         self.recorder = node("flight-recorder", "--folder", str(self.logs), *scenario)
-        self.simulator = node("fleet-simulator", *scenario)
+        self.simulator = node("fleet-simulator", *scenario, *state("fleet-simulator"))
         self.nodes = [
             node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist"),
-                 "--logs", str(self.logs), *tiles),
-            node("collision-monitor", *scenario),
-            node("formation-controller", *scenario, "--state-file", str(self.folder / "formation-controller.state")),
+                 "--logs", str(self.logs), *tiles, *access),
+            node("collision-monitor", *scenario, *state("collision-monitor")),
+            node("formation-controller", *scenario, *state("formation-controller")),
             self.simulator,
         ]
         self.processes = [self.recorder, *self.nodes]
@@ -166,8 +179,8 @@ class Flight:
         """Names of the programs that have not been heard yet."""
         heard = set()
         try:
-            with urllib.request.urlopen(f"http://127.0.0.1:{self.options.port}/api/state", timeout=2) as answer:
-                heard = {beat["heartbeat_node"] for beat in json.load(answer)["heartbeats"]}
+            with urllib.request.urlopen(f"{page_address(self.options)}/api/health", timeout=2) as answer:
+                heard = set(json.load(answer)["nodes"])
         except (urllib.error.URLError, OSError, ValueError):
             pass
         return [process.name for process in self.processes if process.name not in heard]
@@ -201,6 +214,9 @@ def main():
     parser.add_argument("--port", type=int, required=True)
     parser.add_argument("--lcm-url", required=True)
     parser.add_argument("--tiles", type=pathlib.Path)
+    parser.add_argument("--listen", default="127.0.0.1")
+    parser.add_argument("--tokens", action="store_true")
+    parser.add_argument("--allow-host", action="append", default=[])
     options = parser.parse_args()
 
     flight = Flight(options)
@@ -211,7 +227,7 @@ def main():
         signal.signal(number, lambda *_: None)
     try:
         flight.start()
-        say(f"Skein flies {options.scenario.stem}: http://127.0.0.1:{options.port}   (Ctrl-C ends it)")
+        say(f"Skein flies {options.scenario.stem}: {page_address(options)}   (Ctrl-C ends it)")
         flight.keep_running()
     except (StartFailed, multicast_route.RouteFailed) as failure:
         print(f"run: {failure}", file=sys.stderr, flush=True)

@@ -118,11 +118,11 @@ export class Station {
   async hears(node: NodeName, timeout_ms = 20_000): Promise<void> {
     const deadline = Date.now() + timeout_ms;
     for (;;) {
-      const state = (await fetch(`${kPageUrl}api/state`).then(
+      const health = (await fetch(`${kPageUrl}api/health`).then(
         (response) => response.json(),
-        () => ({ heartbeats: [] }),
-      )) as { heartbeats: { heartbeat_node: string }[] };
-      if (state.heartbeats.some(({ heartbeat_node }) => heartbeat_node === node)) return;
+        () => ({ nodes: [] }),
+      )) as { nodes: string[] };
+      if (health.nodes.includes(node)) return;
       if (Date.now() > deadline) throw new Error(`web-bridge doesn't hear ${node}\n${this.log()}`);
       await new Promise((resolve) => setTimeout(resolve, 50));
     }

@@ -10,6 +10,7 @@ import { unpack } from "./link/packed";
 import { signal } from "@preact/signals";
 import type { MapAccess } from "./map/map_access";
 import { PayloadRequests } from "./payload/payload_requests";
+import { Session } from "./sign_in/session";
 import { Shell } from "./shell/shell";
 import type { Station } from "./shell/station";
 import { recordingIn, replay } from "./state/replay";
@@ -38,6 +39,8 @@ const connection = new Connection(
   {
     onState(state) {
       if (state.kind === "waiting") commands.connectionLost();
+      // A browser doesn't tell why a WebSocket was refused.
+      if (state.kind !== "connecting") void session.check();
       store.connection.value = state;
       // In a recording there is nothing to command.
       if (state.kind === "open" && recording === null) control.join();
@@ -57,18 +60,29 @@ const connection = new Connection(
   },
 );
 
+const api = new Api(document.baseURI);
+const session = new Session(
+  api,
+  () => {
+    connection.pause();
+  },
+  () => {
+    connection.retryNow();
+  },
+);
+
 followTheme();
 setInterval(() => {
   store.beat(performance.now());
 }, kBeat_ms);
 connection.start();
 
-const api = new Api(document.baseURI);
 const station: Station = {
   store,
   commands,
   control,
   api,
+  session,
   payloads: new PayloadRequests(store, commands),
   player: new Player(store, commands, api),
   map: signal<MapAccess | null>(null),

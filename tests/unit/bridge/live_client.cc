@@ -40,7 +40,7 @@ struct LiveClient::Impl {
 };
 
 LiveClient::LiveClient(std::uint16_t port, const std::string& origin, const std::string& target,
-                       int receive_buffer_bytes)
+                       int receive_buffer_bytes, const std::string& token)
     : impl_(std::make_unique<Impl>()) {
   auto& tcp = beast::get_lowest_layer(impl_->socket).socket();
   tcp.open(asio::ip::tcp::v4());
@@ -48,6 +48,7 @@ LiveClient::LiveClient(std::uint16_t port, const std::string& origin, const std:
   tcp.connect({asio::ip::make_address("127.0.0.1"), port});
   impl_->socket.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
     if (!origin.empty()) request.set(beast::http::field::origin, origin);
+    if (!token.empty()) request.set(beast::http::field::authorization, "Bearer " + token);
   }));
   const Error error = impl_->Run(
       [&](auto done) { impl_->socket.async_handshake("127.0.0.1:" + std::to_string(port), target, done); });

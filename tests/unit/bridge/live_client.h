@@ -13,9 +13,10 @@ namespace skein::bridge {
 class LiveClient {
  public:
   /// @param origin header, "" for none. @param receive_buffer_bytes 0: what the kernel thinks right; little,
-  /// and the bridge soon notices when nobody reads here. Throws when the upgrade is refused.
+  /// and the bridge soon notices when nobody reads here. @param token "" for none. Throws when the upgrade is
+  /// refused.
   explicit LiveClient(std::uint16_t port, const std::string& origin = "", const std::string& target = "/live",
-                      int receive_buffer_bytes = 0);
+                      int receive_buffer_bytes = 0, const std::string& token = "");
   ~LiveClient();
 
   struct Message {

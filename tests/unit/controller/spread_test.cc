@@ -76,7 +76,20 @@ TEST(ControllerOfManyFormations, SpreadsWhatItSendsOverItsPeriod) {
   }
   bus::PublishChunks(fleet, bus::channel::kFleetRoster, roster);
   executor.Deliver();
-  executor.RunFor(kTick);  // what is sent once, at the start
+  // Planning takes long: the bus is read in between, and nothing is taken from those that wait.
+  EXPECT_EQ(controller.flights().size(), 10u);
+  formation_command_t hold{};
+  hold.to_session_id = bus.session_id();
+  hold.request_id = 1;
+  hold.action = formation_command_t::ACTION_HOLD;
+  hold.formation.formation_id = 1;
+  std::string answer;
+  fleet.Subscribe<ack_t>(bus::channel::kAck, [&](const ack_t& ack) { answer = ack.reason; });
+  fleet.Publish(bus::channel::kCmdFormation, hold);
+  executor.Deliver();
+  EXPECT_EQ(answer, "30 formations of the scenario are still to be started: try again in 1 s");
+  executor.RunFor(bus::kSecond);
+  EXPECT_EQ(controller.flights().size(), static_cast<std::size_t>(kFormations));
   formations.clear();
   formations_of.clear();
   for (int tick = 0; tick < kTicks; ++tick) {

@@ -1,3 +1,6 @@
+#include <unistd.h>
+
+#include <filesystem>
 #include <map>
 #include <skein/ack_t.hpp>
 #include <skein/alarm_command_t.hpp>
@@ -191,6 +194,30 @@ TEST_F(MonitorAlarms, RiseAgainUnacknowledgedAfterARestart) {
   EXPECT_EQ(StateOf("link:3"), kUnacknowledged);
 }
 
+TEST_F(MonitorAlarms, AreAsTheyWereAfterARestartWithAStateFile) {
+  CollisionMonitorOptions options;
+  options.state_file =
+      std::filesystem::temp_directory_path() / ("skein_monitor_" + std::to_string(::getpid()));
+  Start(options);
+  Run(10);
+  SetLink(3, false);
+  SetLink(2, false);
+  Run(6);
+  const std::int64_t id = Find("link:3")->id;
+  Acknowledge(id);
+  node_.reset();
+  SetLink(2, true);
+  lists_.clear();
+  Start(options);
+  Run(1);
+  EXPECT_EQ(StateOf("link:3"), kAcknowledged);
+  Run(12);
+  EXPECT_EQ(StateOf("link:3"), kAcknowledged) << "it was found lost once more";
+  EXPECT_EQ(Find("link:3")->id, id);
+  EXPECT_EQ(StateOf("link:2"), kEnded);
+  std::filesystem::remove(options.state_file);
+}
+
 TEST_F(MonitorAlarms, TellPairsThatComeTooClose) {
   fleet_.Add(4, 3000, 0, 1000, 50, 3.14159265);  // head-on to UAV 1
   Start();
@@ -206,7 +233,8 @@ TEST_F(MonitorAlarms, TellPairsThatComeTooClose) {
 TEST_F(MonitorAlarms, TellANodeThatHasFallenSilent) {
   bool alive = true;
   executor_.Every(bus::kSecond, [&] {
-    heartbeat_t heartbeat;
+    heartbeat_t heartbeat{};
+    heartbeat.utime = executor_.Now();
     heartbeat.heartbeat_node = "formation-controller";
     if (alive) station_.Publish(bus::channel::kHeartbeat, heartbeat);
   });

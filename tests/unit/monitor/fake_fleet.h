@@ -46,6 +46,7 @@ class FakeFleet {
   std::map<int, std::vector<int>> formations;  ///< id -> members
   std::string scenario;
   bus::Utime start_utime = 0;  ///< of the flight; 0: that of this
+  double clock_ahead_s = 0;    ///< of the monitor's
   bool commands = true;
   bool telemetry = true;
 
@@ -71,7 +72,7 @@ class FakeFleet {
   }
 
   void Tick() {
-    const bus::Utime now = bus_.executor().Now();
+    const bus::Utime now = bus_.executor().Now() + bus::ToUtime(clock_ahead_s);
     if (telemetry) {
       fleet_state_t states;
       states.utime = now;

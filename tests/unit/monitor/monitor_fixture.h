@@ -14,8 +14,8 @@ namespace skein::monitor::testing {
 /// A monitor that hears a fake fleet on a simulated clock.
 class MonitorTest : public ::testing::Test {
  protected:
-  /// Starts the monitor; the fleet may have been flying for long. (That is all that a restart is: it keeps
-  /// nothing.)
+  /// Starts the monitor; the fleet may have been flying for long. (That is all that a restart is without a
+  /// state file: it keeps nothing.)
   void Start(const CollisionMonitorOptions& options = {}) { node_.emplace(monitor_bus_, options); }
   void Run(double seconds) { executor_.RunFor(bus::ToUtime(seconds)); }
 

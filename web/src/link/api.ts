@@ -1,7 +1,15 @@
 /** HTTP requests to web-bridge: what is too large or too slow for the live link. */
 
 /** Why a request got no result, for people. */
-export class ApiError extends Error {}
+export class ApiError extends Error {
+  /** `status` is that of the answer, 0 when there was none. */
+  constructor(
+    message: string,
+    readonly status = 0,
+  ) {
+    super(message);
+  }
+}
 
 export class Api {
   /** `base` is the page's own address. */
@@ -38,7 +46,7 @@ export class Api {
   ): Promise<T> {
     try {
       const response = await fetch(new URL(path, this.base), options);
-      if (!response.ok) throw new ApiError(await reasonOf(response));
+      if (!response.ok) throw new ApiError(await reasonOf(response), response.status);
       return await read(response);
     } catch (error) {
       if (error instanceof ApiError || options.signal?.aborted) throw error;

@@ -67,6 +67,11 @@ export class Connection {
     if (this.socket === null) this.start();
   }
 
+  /** No more attempts until `retryNow`: there is something to be done first. */
+  pause(): void {
+    if (this.socket === null) clearTimeout(this.timer);
+  }
+
   /** False when there is nobody to send to. */
   send(text: string): boolean {
     if (this.socket === null) return false;

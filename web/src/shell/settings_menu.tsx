@@ -1,10 +1,12 @@
 import type { Signal } from "@preact/signals";
 import { altitude_unit, distance_unit, speed_unit, theme_choice } from "../state/settings";
+import type { Session } from "../sign_in/session";
+import { SignedIn } from "../sign_in/sign_in";
 import { Icon } from "./icon";
 import { Popover } from "./popover";
 
 /** What a person chooses for this browser. */
-export function SettingsMenu() {
+export function SettingsMenu({ session }: { session: Session }) {
   return (
     <Popover label="Settings" button={<Icon name="settings" />}>
       <h2>Appearance</h2>
@@ -43,6 +45,7 @@ export function SettingsMenu() {
           ["kt", "kt"],
         ]}
       />
+      <SignedIn session={session} />
       <p class="hint">Altitudes are above the local origin (ENU). Courses are compass degrees.</p>
     </Popover>
   );

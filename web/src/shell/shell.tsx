@@ -10,6 +10,7 @@ import { openingProblem } from "../recordings/opening_problem";
 import { Dock, Drawer, Rail, SideColumn } from "./docks";
 import { Help } from "./help";
 import type { PanelProps } from "./panel_props";
+import { SignIn } from "../sign_in/sign_in";
 import { TimeLine } from "../timeline/timeline";
 import { listenForShortcuts } from "./shortcuts";
 import { TopBar } from "./top_bar";
@@ -33,10 +34,16 @@ export function Shell({ station }: PanelProps) {
           <ModeCards store={store} />
           <div class="in-sight" ref={in_sight} />
           <div class="free">
-            {openingProblem(station) === "" && <LinkBanner store={store} retry={station.retry} />}
-            <ControlNotices station={station} />
-            <FirstRun store={store} />
-            <Opening station={station} />
+            {station.session.state.value.kind === "asked" ? (
+              <SignIn session={station.session} />
+            ) : (
+              <>
+                {openingProblem(station) === "" && <LinkBanner store={store} retry={station.retry} />}
+                <ControlNotices station={station} />
+                <FirstRun store={store} />
+                <Opening station={station} />
+              </>
+            )}
           </div>
         </div>
       </div>

@@ -5,6 +5,7 @@ import type { Api } from "../link/api";
 import type { Commands } from "../link/commands";
 import type { MapAccess } from "../map/map_access";
 import type { PayloadRequests } from "../payload/payload_requests";
+import type { Session } from "../sign_in/session";
 import type { Player } from "../timeline/player";
 import type { Store } from "../state/store";
 
@@ -14,6 +15,8 @@ export interface Station {
   /** Who may command, and this page's part in it. */
   readonly control: Control;
   readonly api: Api;
+  /** Who this browser is to a bridge that demands tokens. */
+  readonly session: Session;
   readonly payloads: PayloadRequests;
   /** The recording that is open, if one is. */
   readonly player: Player;

@@ -28,7 +28,7 @@ export function TopBar({ station }: PanelProps) {
       <AlarmBadges station={station} />
       <RecordingPill station={station} />
       <ConnectionPill store={store} />
-      <SettingsMenu />
+      <SettingsMenu session={station.session} />
       <button
         type="button"
         class="bar-button"

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <skein/formation_status_t.hpp>
 #include <skein/formation_t.hpp>
 #include <skein/path_t.hpp>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bus/executor.h"
@@ -25,11 +26,10 @@ struct ControllerState {
   std::vector<FormationState> formations;
 };
 
-/// Writes the state so that a crash leaves the old or the new one, never half of one. Throws
-/// std::runtime_error with the file and why.
-void WriteState(const std::filesystem::path& file, const ControllerState& state);
+/// As a bus::StateFile keeps it.
+std::string Encode(const ControllerState& state);
 
-/// None when there is no such file or it is damaged.
-std::optional<ControllerState> ReadState(const std::filesystem::path& file);
+/// None when the bytes hold none.
+std::optional<ControllerState> DecodeControllerState(std::string_view bytes);
 
 }  // namespace skein::controller

@@ -1,0 +1,39 @@
+#include "monitor/clock_watch.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cstdlib>
+#include <skein/heartbeat_t.hpp>
+
+#include "bus/channels.h"
+
+namespace skein::monitor {
+namespace {
+
+// Whoever can send HEARTBEAT can invent names.
+constexpr std::size_t kMostNodes = 100;
+
+}  // namespace
+
+ClockWatch::ClockWatch(bus::Bus& bus, AlarmDesk& alarms) : alarms_(alarms) {
+  bus.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [this, &bus](const heartbeat_t& heartbeat) {
+    Hear(heartbeat.heartbeat_node, heartbeat.utime - bus.executor().Now());
+  });
+}
+
+void ClockWatch::Hear(const std::string& node, bus::Utime offset) {
+  if (nodes_.size() >= kMostNodes && !nodes_.contains(node)) return;
+  Offset& known = nodes_[node];
+  const bus::Utime most = known.alarm ? kMost / 2 : kMost;
+  const bool off = std::abs(offset) > most;
+  known.in_a_row = off ? known.in_a_row + 1 : 0;
+  if (off == known.alarm || (off && known.in_a_row < kInARow)) return;
+  known.alarm = off;
+  const std::string key = "clock:" + node;
+  if (!off) return alarms_.End(key);
+  alarms_.Raise({key, AlertLevel::kCaution,
+                 fmt::format("the clock of {} is {:.1f} s {} the monitor's: synchronise the hosts", node,
+                             bus::ToSeconds(std::abs(offset)), offset > 0 ? "ahead of" : "behind")});
+}
+
+}  // namespace skein::monitor

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "bus/bus.h"
+#include "monitor/alarm_desk.h"
+
+namespace skein::monitor {
+
+/// Raises an alarm while the clock of another node (HEARTBEAT) is off from ours: events, alarms and
+/// recordings of several hosts are then hard to read together. Links are judged by times of one clock alone,
+/// so nothing else comes of it.
+class ClockWatch {
+ public:
+  ClockWatch(bus::Bus& bus, AlarmDesk& alarms);
+
+  /// Off by more than this is an alarm, until it is off by less than half of it.
+  static constexpr bus::Utime kMost = bus::kSecond;
+  /// So many heartbeats in a row: one may be late for other reasons.
+  static constexpr int kInARow = 3;
+
+ private:
+  struct Offset {
+    int in_a_row = 0;
+    bool alarm = false;
+  };
+  void Hear(const std::string& node, bus::Utime offset);
+
+  AlarmDesk& alarms_;
+  std::map<std::string, Offset> nodes_;
+};
+
+}  // namespace skein::monitor

@@ -1,0 +1,48 @@
+// Raw bytes at web-bridge's port: HTTP requests, or after an upgrade frames of the WebSocket (first byte
+// odd).
+#include <utility>
+
+#include <array>
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/write.hpp>
+#include <string>
+
+#include "fuzz_target.h"
+#include "unit/bridge/bridge_under_test.h"
+
+namespace skein {
+namespace {
+
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+
+constexpr const char* kUpgrade =
+    "GET /live HTTP/1.1\r\nHost: localhost\r\nConnection: Upgrade\r\nUpgrade: websocket\r\n"
+    "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+
+/// Sends it all, says that no more comes, and waits until the other side has closed.
+void Send(std::uint16_t port, const std::string& bytes) {
+  asio::io_context context;
+  Tcp::socket socket(context);
+  boost::system::error_code error;
+  socket.connect({asio::ip::address_v4::loopback(), port}, error);
+  fuzz::Require(!error, "the bridge still listens");
+  asio::write(socket, asio::buffer(bytes), error);
+  socket.shutdown(Tcp::socket::shutdown_send, error);
+  std::array<char, 4096> answer;
+  while (!error) socket.read_some(asio::buffer(answer), error);
+}
+
+}  // namespace
+}  // namespace skein
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static skein::bridge::BridgeUnderTest bridge;
+  if (size == 0) return 0;
+  std::string bytes = data[0] % 2 == 1 ? skein::kUpgrade : "";
+  bytes.append(reinterpret_cast<const char*>(data + 1), size - 1);
+  skein::Send(bridge.port(), bytes);
+  return 0;
+}

@@ -1,0 +1,239 @@
+// Processes that die, stop, or are started twice: what was is found again, and nobody works against anybody.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <skein/alarm_list_t.hpp>
+#include <skein/event_t.hpp>
+#include <skein/fleet_state_t.hpp>
+#include <skein/formation_status_t.hpp>
+#include <skein/heartbeat_t.hpp>
+#include <skein/link_status_t.hpp>
+#include <string>
+#include <vector>
+
+#include "bus/channels.h"
+#include "system/bus_ear.h"
+#include "system/process.h"
+
+namespace skein::testing {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::vector<std::string> kNodes{"fleet-simulator", "formation-controller", "collision-monitor"};
+
+/// The nodes of a flight, started and killed one by one, each with a state file.
+class FaultsTest : public ::testing::Test {
+ protected:
+  ~FaultsTest() override {
+    nodes_.clear();
+    std::filesystem::remove_all(folder_);
+  }
+
+  std::unique_ptr<Process> Start(const std::string& node) const {
+    return std::make_unique<Process>(std::vector<std::string>{
+        Program(node), "--lcm-url", url_, "--scenario", "triangle", "--state-file", folder_ + "/" + node});
+  }
+  void StartAll() {
+    for (const std::string& node : kNodes) nodes_[node] = Start(node);
+    for (const std::string& node : kNodes) ASSERT_TRUE(HearsHeartbeat(url_, node)) << node;
+    ASSERT_TRUE(Hears<formation_status_t>(
+        url_, bus::channel::kFormationStatus, [](const auto&) { return true; }, 10s));
+  }
+  /// Killed outright, and started again with the same state file.
+  void Restart(const std::string& node) {
+    nodes_[node]->Signal(SIGKILL);
+    ASSERT_TRUE(nodes_[node]->WaitForEnd(5s));
+    nodes_[node] = Start(node);
+  }
+  void Skein(std::vector<std::string> words) const {
+    words.insert(words.begin(), {Program("skein"), "--lcm-url", url_});
+    const Finished done = RunToEnd(words);
+    ASSERT_EQ(done.exit_code, 0) << done.output;
+  }
+  /// The next complete FLEET_STATE of this small fleet.
+  fleet_state_t NextState() const {
+    fleet_state_t next{};
+    EXPECT_TRUE(Hears<fleet_state_t>(
+        url_, bus::channel::kFleetState,
+        [&](const fleet_state_t& state) {
+          next = state;
+          return true;
+        },
+        5s));
+    return next;
+  }
+  bool HearsAlarm(const std::string& condition, const std::function<bool(const alarm_t&)>& is_it,
+                  Seconds timeout) const {
+    return Hears<alarm_list_t>(
+        url_, bus::channel::kAlarms,
+        [&](const alarm_list_t& list) {
+          return std::any_of(list.alarms.begin(), list.alarms.end(), [&](const alarm_t& alarm) {
+            return alarm.condition == condition && is_it(alarm);
+          });
+        },
+        timeout);
+  }
+  /// Whether all slots of the formation are held within so much, at some moment within `timeout`.
+  bool HoldsSlots(double within_m, Seconds timeout) const {
+    return Hears<formation_status_t>(
+        url_, bus::channel::kFormationStatus,
+        [&](const formation_status_t& status) {
+          return !status.slots.empty() &&
+                 std::all_of(status.slots.begin(), status.slots.end(), [&](const slot_status_t& slot) {
+                   return std::hypot(slot.forward_error_m, slot.left_error_m, slot.up_error_m) <= within_m;
+                 });
+        },
+        timeout);
+  }
+
+  std::string url_ = FreshLcmUrl();
+  std::string folder_ = FreshFolder("skein-faults");
+  std::map<std::string, std::unique_ptr<Process>> nodes_;
+};
+
+class OnlyOneTest : public FaultsTest, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(OnlyOneTest, TheSecondStaysBackAndTakesOverWhenTheFirstDies) {
+  StartAll();
+  const auto second = Start(GetParam());
+  ASSERT_TRUE(second->WaitForOutput("stands by", 10s)) << second->output();
+  // While both are there the first alone is heard under its name.
+  std::int64_t first_session = 0;
+  EXPECT_FALSE(Hears<heartbeat_t>(
+      url_, bus::channel::kHeartbeat,
+      [&](const heartbeat_t& heartbeat) {
+        if (heartbeat.heartbeat_node != GetParam()) return false;
+        if (first_session == 0) first_session = heartbeat.session_id;
+        return heartbeat.session_id != first_session;
+      },
+      3s));
+  nodes_[GetParam()]->Signal(SIGKILL);
+  ASSERT_TRUE(second->WaitForOutput("takes over", 5s)) << second->output();
+  EXPECT_TRUE(Hears<heartbeat_t>(
+      url_, bus::channel::kHeartbeat,
+      [&](const heartbeat_t& heartbeat) {
+        return heartbeat.heartbeat_node == GetParam() && heartbeat.session_id > first_session;
+      },
+      5s));
+}
+
+TEST_P(OnlyOneTest, AFirstThatWasStoppedMeanwhileEndsWhenItGoesOn) {
+  StartAll();
+  const auto second = Start(GetParam());
+  ASSERT_TRUE(second->WaitForOutput("stands by", 10s)) << second->output();
+  nodes_[GetParam()]->Signal(SIGSTOP);
+  ASSERT_TRUE(second->WaitForOutput("takes over", 10s)) << second->output();
+  ASSERT_TRUE(HearsHeartbeat(url_, GetParam()));
+  // No UAV goes back to an older controller.
+  std::map<int, std::int64_t> newest;
+  nodes_[GetParam()]->Signal(SIGCONT);
+  EXPECT_FALSE(Hears<fleet_state_t>(
+      url_, bus::channel::kFleetState,
+      [&](const fleet_state_t& state) {
+        return std::any_of(state.vehicles.begin(), state.vehicles.end(), [&](const vehicle_state_t& uav) {
+          std::int64_t& session = newest[uav.id];
+          if (uav.command_session_id < session) return true;
+          session = uav.command_session_id;
+          return false;
+        });
+      },
+      3s));
+  EXPECT_EQ(nodes_[GetParam()]->WaitForEnd(5s), 1);
+  EXPECT_NE(nodes_[GetParam()]->output().find("has taken over"), std::string::npos)
+      << nodes_[GetParam()]->output();
+}
+
+INSTANTIATE_TEST_SUITE_P(Skein, OnlyOneTest, ::testing::ValuesIn(kNodes), [](const auto& named) {
+  std::string name = named.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST_F(FaultsTest, AKilledSimulatorGoesOnWithTheFlight) {
+  StartAll();
+  Skein({"link", "cut", "3", "--for", "60"});
+  ASSERT_TRUE(Hears<fleet_state_t>(
+      url_, bus::channel::kFleetState, [](const fleet_state_t& state) { return state.tick > 60; }, 15s));
+  const fleet_state_t before = NextState();
+  Restart("fleet-simulator");
+  const fleet_state_t after = NextState();
+  EXPECT_EQ(after.session_id, before.session_id) << "the same flight";
+  const double gap_s = bus::ToSeconds(after.utime - before.utime);
+  EXPECT_GT(gap_s, 0);
+  EXPECT_LT(gap_s, 2);
+  EXPECT_EQ(after.tick - before.tick, std::llround(gap_s * 20));
+  ASSERT_EQ(after.vehicles.size(), 2u) << "the link that was cut is cut";
+  for (std::size_t i = 0; i < after.vehicles.size(); ++i) {
+    const vehicle_state_t& one = before.vehicles[i];
+    const vehicle_state_t& other = after.vehicles[i];
+    const double flown_m =
+        std::hypot(other.east_m - one.east_m, other.north_m - one.north_m, other.up_m - one.up_m);
+    EXPECT_NEAR(flown_m, one.speed_m_s * gap_s, 5 + 5 * gap_s) << "UAV" << one.id;
+  }
+  EXPECT_TRUE(HoldsSlots(2000, 10s)) << "the controller goes on, too";
+}
+
+TEST_F(FaultsTest, AKilledMonitorKeepsWhatWasAcknowledged) {
+  StartAll();
+  Skein({"link", "cut", "3", "--for", "60"});
+  std::int64_t id = 0;
+  ASSERT_TRUE(HearsAlarm(
+      "link:3",
+      [&](const alarm_t& alarm) {
+        id = alarm.id;
+        return alarm.state == alarm_t::UNACKNOWLEDGED && alarm.severity == event_t::WARNING;
+      },
+      10s));
+  Skein({"alarm", "ack", "all"});
+  Restart("collision-monitor");
+  const auto as_before = [&](const alarm_t& alarm) {
+    return alarm.id == id && alarm.state == alarm_t::ACKNOWLEDGED;
+  };
+  EXPECT_TRUE(HearsAlarm("link:3", as_before, 5s));
+  // Also when the monitor has found out by itself that the link is lost.
+  const auto is_another = [&](const alarm_t& alarm) {
+    return alarm.state != alarm_t::OVER && !as_before(alarm);
+  };
+  EXPECT_FALSE(HearsAlarm("link:3", is_another, 13s));
+}
+
+TEST_F(FaultsTest, AControllerThatWasStoppedForTenSecondsGoesOn) {
+  StartAll();
+  ASSERT_TRUE(HoldsSlots(20, 120s));
+  nodes_["formation-controller"]->Signal(SIGSTOP);
+  EXPECT_TRUE(HearsAlarm(
+      "node_silent:formation-controller", [](const alarm_t&) { return true; }, 5s));
+  // What it is about is how long it was stopped.
+  EXPECT_FALSE(Hears<formation_status_t>(
+      url_, bus::channel::kFormationStatus, [](const auto&) { return true; }, 7s));
+  nodes_["formation-controller"]->Signal(SIGCONT);
+  EXPECT_TRUE(HoldsSlots(20, 30s));
+}
+
+TEST_F(FaultsTest, WhenTheSimulatorIsGoneThatIsToldWithinFiveSeconds) {
+  StartAll();
+  nodes_["fleet-simulator"]->Signal(SIGKILL);
+  EXPECT_TRUE(HearsAlarm(
+      "fleet_silent", [](const alarm_t&) { return true; }, 5s));
+  EXPECT_TRUE(Hears<link_status_t>(
+      url_, bus::channel::kLinkStatus,
+      [](const link_status_t& status) {
+        return std::all_of(status.links.begin(), status.links.end(), [](const vehicle_link_t& link) {
+          return link.downlink == link_status_t::LINK_LOST;
+        });
+      },
+      3s));
+  // Nobody climbs for it: it is one alarm about the fleet, and none about a UAV's link.
+  EXPECT_FALSE(HearsAlarm(
+      "link:1", [](const alarm_t&) { return true; }, 4s));
+}
+
+}  // namespace
+}  // namespace skein::testing
