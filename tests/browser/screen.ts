@@ -249,15 +249,26 @@ export class Screen {
     await this.page.setViewportSize({ width, height });
     await this.page.emulateMedia({ colorScheme: theme });
     await this.page.waitForFunction((wanted) => document.documentElement.dataset["theme"] === wanted, theme);
-    await this.page.keyboard.press("f");
+    // Where something is being typed it would only be one more letter.
+    if (!(await this.page.evaluate(() => document.activeElement instanceof HTMLInputElement)))
+      await this.page.keyboard.press("f");
     // Two frames of the screen: the new size and theme are drawn.
     await this.page.evaluate(
       () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
     );
   }
 
+  /** Also looks whether the page fills the window: what is lowest ends where it does, and what is shown of the map is no slit. */
   async picture(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
     await this.show(width, height, theme);
+    const { lowest, map_px } = await this.page.evaluate(() => ({
+      lowest: Math.max(
+        ...[...document.querySelectorAll(".app > *")].map((part) => part.getBoundingClientRect().bottom),
+      ),
+      map_px: document.querySelector(".middle")?.getBoundingClientRect().height ?? 0,
+    }));
+    expect(Math.abs(lowest - height), `${name}: the lowest part ends at ${lowest}`).toBeLessThan(2);
+    expect(map_px, `${name}: the map's height`).toBeGreaterThan(0.15 * height);
     await this.page.screenshot({
       path: `${kResults}${name}-${width}x${height}-${theme}.png`,
     });

@@ -43,6 +43,8 @@ test("who has no token is asked for one, and sees nothing of the fleet", async (
   explain(station);
   await field().waitFor();
   await until(async () => expect(await field().evaluate((it) => it === document.activeElement)).toBe(true));
+  expect(await field().inputValue()).toBe("");
+  expect(await screen.text(".pill")).toBe("Signed out");
   await station.hears("formation-controller");
   expect(await screen.page.locator("tbody tr").count()).toBe(0);
   expect((await fetch(`${kPageUrl}api/state`)).status).toBe(401);
@@ -60,9 +62,7 @@ test("who has no token is asked for one, and sees nothing of the fleet", async (
 test("a wrong token is told of beside the field", async () => {
   explain(station);
   await signIn("skein_wrong");
-  await until(async () =>
-    expect(await screen.text(".sign-in .field-problem")).toContain("opens nothing here"),
-  );
+  await until(async () => expect(await screen.text(".sign-in .wrong-token")).toContain("opens nothing here"));
   await screen.picture("sign-in-wrong", 1280, 720, "dark");
 });
 
@@ -107,9 +107,7 @@ test("a revoked token is out at once", async () => {
   await field().waitFor();
   expect((await fetch(`${kPageUrl}api/state`)).status).toBe(401);
   await signIn(operator);
-  await until(async () =>
-    expect(await screen.text(".sign-in .field-problem")).toContain("opens nothing here"),
-  );
+  await until(async () => expect(await screen.text(".sign-in .wrong-token")).toContain("opens nothing here"));
 });
 
 test("no request left this machine", () => {

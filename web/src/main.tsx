@@ -40,7 +40,7 @@ const connection = new Connection(
     onState(state) {
       if (state.kind === "waiting") commands.connectionLost();
       // A browser doesn't tell why a WebSocket was refused.
-      if (state.kind !== "connecting") void session.check();
+      if (state.kind === "open" || state.kind === "waiting") void session.check();
       store.connection.value = state;
       // In a recording there is nothing to command.
       if (state.kind === "open" && recording === null) control.join();
@@ -64,7 +64,7 @@ const api = new Api(document.baseURI);
 const session = new Session(
   api,
   () => {
-    connection.pause();
+    connection.signedOut();
   },
   () => {
     connection.retryNow();

@@ -9,6 +9,7 @@ const kPatience_ms = 4000;
 /** Why no alarms can come, in a sentence; "" while they can. */
 export function whyNoAlarms(store: Store, now_ms: number): string {
   const replayed = replay.value !== null;
+  if (store.connection.value.kind === "signed out") return "No alarms can come: sign in first.";
   if (store.connection.value.kind !== "open")
     return replayed ? "web-bridge can't be reached." : "No alarms can come: web-bridge can't be reached.";
   if (store.silent_nodes.value.includes(kMonitor))

@@ -128,3 +128,13 @@ test("says when there is nobody to send to", () => {
   last().closes();
   expect(connection.send("x")).toBe(false);
 });
+
+test("signed out, it tries no more until it is asked to", () => {
+  last().closes();
+  connection.signedOut();
+  expect(state()).toBe("signed out");
+  vi.advanceTimersByTime(60_000);
+  expect(sockets).toHaveLength(1);
+  connection.retryNow();
+  expect(sockets).toHaveLength(2);
+});

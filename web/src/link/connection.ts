@@ -4,7 +4,9 @@ export type ConnectionState =
   | { kind: "connecting" }
   | { kind: "open" }
   /** Lost, or never found; the next attempt is due at `retry_at_ms` (performance.now). */
-  | { kind: "waiting"; attempt: number; retry_at_ms: number };
+  | { kind: "waiting"; attempt: number; retry_at_ms: number }
+  /** The bridge lets nobody in without a token: no more attempts until there is one. */
+  | { kind: "signed out" };
 
 /** What is used of a WebSocket. */
 export interface Socket {
@@ -67,9 +69,11 @@ export class Connection {
     if (this.socket === null) this.start();
   }
 
-  /** No more attempts until `retryNow`: there is something to be done first. */
-  pause(): void {
-    if (this.socket === null) clearTimeout(this.timer);
+  /** The bridge wants a token first: no more attempts until `retryNow`. */
+  signedOut(): void {
+    if (this.socket !== null) return;
+    clearTimeout(this.timer);
+    this.handlers.onState({ kind: "signed out" });
   }
 
   /** False when there is nobody to send to. */

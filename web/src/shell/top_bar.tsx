@@ -78,6 +78,7 @@ function ConnectionPill({ store }: { store: Store }) {
 
 function connectionWord(store: Store, now_ms: number): ["live" | "waiting" | "gone", string] {
   const connection = store.connection.value;
+  if (connection.kind === "signed out") return ["gone", "Signed out"];
   if (connection.kind === "waiting") return ["gone", "Reconnecting…"];
   if (connection.kind === "connecting")
     return [

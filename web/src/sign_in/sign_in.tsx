@@ -42,7 +42,7 @@ export function SignIn({ session }: { session: Session }) {
           Sign in
         </button>
       </form>
-      <p id="sign-in-problem" class="field-problem" role="alert">
+      <p id="sign-in-problem" class="wrong-token" role="alert">
         {problem.value}
       </p>
       <p class="hint">
@@ -73,7 +73,7 @@ export function SignedIn({ session }: { session: Session }) {
         </button>
       </p>
       {problem.value !== "" && (
-        <p class="field-problem" role="alert">
+        <p class="wrong-token" role="alert">
           {problem.value}
         </p>
       )}
