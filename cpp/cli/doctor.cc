@@ -131,8 +131,9 @@ std::map<std::string, Heard> Listen(const bus::Transport& transport, double seco
 void JudgeNodes(const std::map<std::string, Heard>& heard, std::vector<Finding>& findings) {
   if (heard.empty()) findings.push_back({"processes", Health::kGood, "none is heard on this bus"});
   for (const auto& [node, one] : heard) {
-    const auto add = [&](Health health, const std::string& text, const std::string& remedy) {
-      findings.push_back({node, health, text, remedy});
+    const auto add = [&findings, about = node](Health health, const std::string& text,
+                                               const std::string& remedy) {
+      findings.push_back({about, health, text, remedy});
     };
     const heartbeat_t& last = one.last;
     if (std::abs(one.clock_ahead_s) > kGoodClock_s)
