@@ -1,7 +1,5 @@
 #include "simulator/simulated_vehicle.h"
 
-#include <tuple>
-
 #include "bus/conversions.h"
 
 namespace skein::simulator {
@@ -9,6 +7,11 @@ namespace {
 
 /// A UAV that holds when its uplink is lost does so this long after its last command.
 constexpr bus::Utime kHoldAfter = 1 * bus::kSecond;
+
+/// A later controller is obeyed, and a sequence that has jumped is believed, when so long nothing fitting has
+/// come: one false message neither takes a UAV over nor makes it deaf for what is true.
+constexpr bus::Utime kSilence = bus::kSecond / 2;
+constexpr std::int64_t kMostAhead = 100;
 
 /// Seeds of different links must not be neighbours: they would draw the same numbers, shifted.
 std::uint64_t LinkSeed(std::uint64_t seed, int vehicle_id, int direction) {
@@ -70,7 +73,12 @@ void SimulatedVehicle::ArriveAt(bus::Utime utime, const VehicleState& state) {
 }
 
 void SimulatedVehicle::Obey(bus::Utime arrival, const FlightCommand& command) {
-  if (std::tie(command.session_id, command.sequence) <= std::tie(session_id_, sequence_)) return;
+  const bool silence = !commanded_ || arrival - *commanded_ >= kSilence;
+  if (command.session_id != session_id_) {
+    if (command.session_id < session_id_ || !silence) return;
+  } else if (command.sequence <= sequence_ || (command.sequence - sequence_ > kMostAhead && !silence)) {
+    return;
+  }
   session_id_ = command.session_id;
   sequence_ = command.sequence;
   input_ = command.input;

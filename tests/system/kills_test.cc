@@ -5,7 +5,7 @@
 #include <signal.h>
 #include <spdlog/fmt/fmt.h>
 
-#include <atomic>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -116,9 +116,23 @@ class Watcher {
   }
 
  private:
+  /// Whether a UAV is in its slot, as far as was told last. One on its way there, after its link was lost
+  /// (the scenario sees to that), is commanded as hard as it can fly, whether anything is killed or not.
+  bool InPlace(int id) const {
+    constexpr double kNear_m = 50;
+    return std::any_of(status_.slots.begin(), status_.slots.end(), [&](const slot_status_t& slot) {
+      return slot.vehicle_id == id && slot.flown &&
+             std::hypot(slot.forward_error_m, slot.left_error_m, slot.up_error_m) < kNear_m;
+    });
+  }
+
   /// No setpoint is farther from the last one than the UAV could have got in between and in kBack_s.
   void Judge(const fleet_command_t& from, const vehicle_command_t& command) {
     const std::lock_guard lock(mutex_);
+    if (!InPlace(command.id)) {
+      last_.erase(command.id);
+      return;
+    }
     const auto model = models_.find(command.id);
     const auto [last, first] = last_.try_emplace(command.id, from.utime, command);
     if (!first && model != models_.end()) {

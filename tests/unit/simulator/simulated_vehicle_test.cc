@@ -82,7 +82,7 @@ TEST(SimulatedVehicle, ReportsItsStateWithItsTime) {
   EXPECT_FALSE(report->payload_on);
 }
 
-TEST(SimulatedVehicle, RefusesOldSequencesAndOldSessions) {
+TEST(SimulatedVehicle, RefusesOldSequencesAndOldSessionsAndLaterOnesUntilItsOwnFallsSilent) {
   Flight flight(Config());
   const auto speed_input_after = [&](const FlightCommand& command) {
     flight.vehicle.Send(flight.now(), command);
@@ -93,10 +93,15 @@ TEST(SimulatedVehicle, RefusesOldSequencesAndOldSessions) {
   EXPECT_EQ(speed_input_after(CommandSpeed(61, 4)), 60);
   EXPECT_EQ(speed_input_after(CommandSpeed(62, 5)), 60);
   EXPECT_EQ(speed_input_after(CommandSpeed(63, 100, 9)), 60);
-  EXPECT_EQ(speed_input_after(CommandSpeed(64, 1, 11)), 64);  // a controller that was started anew
+  EXPECT_EQ(speed_input_after(CommandSpeed(64, 1, 11)), 60) << "its own still commands";
+  EXPECT_EQ(speed_input_after(CommandSpeed(64, 5'000'000, 10)), 60) << "nothing explains such a jump";
+  flight.Fly(10);
+  EXPECT_EQ(speed_input_after(CommandSpeed(64, 1, 11)), 64) << "a controller that was started anew";
   EXPECT_EQ(speed_input_after(CommandSpeed(65, 200, 10)), 64);
   EXPECT_EQ(flight.vehicle.Telemetry()->command_session_id, 11);
   EXPECT_EQ(flight.vehicle.Telemetry()->command_sequence, 1);
+  flight.Fly(10);
+  EXPECT_EQ(speed_input_after(CommandSpeed(66, 5000, 11)), 66) << "its uplink was gone for long";
 }
 
 TEST(SimulatedVehicle, KeepsTheNewestCommandWhenAJitteredLinkTurnsThemRound) {
