@@ -69,8 +69,11 @@ Turn::Turn(Bus& bus, std::int64_t receive_buffer_bytes, std::function<void()> en
     if (heartbeat.session_id == bus.session_id()) return;
     const bool same = heartbeat.heartbeat_node == bus.node();
     if (same && heartbeat.session_id > bus.session_id()) {
-      over_ = true;
-      return end();
+      if (heartbeat.session_id != later_) later_beat_ = heartbeat.utime;
+      later_ = heartbeat.session_id;
+      over_ = heartbeat.utime - later_beat_ >= OnlyOne::kProof;
+      if (over_) end();
+      return;
     }
     if ((same || heartbeat.heartbeat_node == StandbyOf(bus.node())) && IsNew(known_, heartbeat.session_id))
       SendHeartbeat(bus, receive_buffer_bytes);

@@ -22,6 +22,9 @@ struct OnlyOne {
   /// So long a newcomer listens for others before it takes its turn.
   static constexpr Utime kListen = kSecond / 5;
   static constexpr Utime kSilence = 5 * kSecond / 2;
+  /// A later one is believed when a second heartbeat is so much younger than its first: not for one false
+  /// message, however often it comes.
+  static constexpr Utime kProof = kSecond / 2;
 };
 
 /// The name in HEARTBEAT of a node that stands by, and whether a name is one. Nobody misses it when it falls
@@ -42,6 +45,8 @@ class Turn {
 
  private:
   bool over_ = false;
+  std::int64_t later_ = 0;        ///< session of a later one
+  Utime later_beat_ = 0;          ///< time stamp of its first heartbeat that was heard
   std::set<std::int64_t> known_;  ///< sessions of others that have been told of this one
 };
 

@@ -84,11 +84,19 @@ void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
   // Which ticks are taken, and when a clock was set, SubscribeChunks has decided. After a jump the leaders go
   // on from where they are: they must neither stand still until a clock comes round again nor be moved by
   // hours at once.
+  // A tick may come late, and does when this process was held up; one that is ahead of what both clocks say
+  // has a false time, or a clock that was set.
   constexpr bus::Utime kLongestGap = 60 * bus::kSecond;
-  if (tick_utime_ != 0 && (state.utime <= tick_utime_ || state.utime > tick_utime_ + kLongestGap)) {
+  constexpr bus::Utime kMostAhead = 2 * bus::kSecond;
+  const bus::Utime ahead = state.utime - bus_.executor().Now();
+  const bool known = tick_utime_ != 0;
+  const bool jumped = known && (state.utime <= tick_utime_ || state.utime > tick_utime_ + kLongestGap ||
+                                ahead > clock_ahead_ + kMostAhead);
+  if (jumped) {
     for (auto& [id, view] : fleet_) view.TakeClock(state.utime);
     for (auto& [id, flight] : flights_) flight.TakeClock(state.utime);
   }
+  clock_ahead_ = known && !jumped ? std::max(clock_ahead_, ahead) : ahead;
   fleet_session_id_ = state.session_id;
   tick_utime_ = state.utime;
   tick_ = state.tick;

@@ -107,6 +107,7 @@ class FormationControllerNode {
   bus::Utime start_utime_ = 0;                   ///< t = 0 of the scenario; 0: no roster yet
   std::int64_t fleet_session_id_ = 0;            ///< of FLEET_STATE
   bus::Utime tick_utime_ = 0;
+  bus::Utime clock_ahead_ = 0;  ///< of the fleet's clock: the most that a tick has been ahead of ours
   std::int64_t tick_ = 0;
   std::int64_t ticks_heard_ = 0;
   std::size_t repeat_part_ = 0;  ///< of kRepeatParts, the next

@@ -12,6 +12,8 @@ namespace {
 
 constexpr bus::Utime kLookPeriod = bus::kSecond / 2;
 constexpr bus::Utime kSilentAfter = 3 * bus::kSecond;  // three heartbeats
+// Heard so often a node is one: a damaged name comes once.
+constexpr int kKnown = 3;
 constexpr std::string_view kNodeSilent = "node_silent:";
 constexpr const char* kController = "formation-controller";
 // Whoever can send HEARTBEAT can invent names.
@@ -29,20 +31,23 @@ SilenceWatch::SilenceWatch(bus::Bus& bus, AlarmDesk& alarms) : bus_(bus), alarms
   bus.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [this](const heartbeat_t& heartbeat) {
     const std::string& node = heartbeat.heartbeat_node;
     if (bus::IsStandby(node)) return;
-    if (nodes_.size() < kMostNodes || nodes_.contains(node)) nodes_[node] = bus_.executor().Now();
+    if (nodes_.size() >= kMostNodes && !nodes_.contains(node)) return;
+    nodes_[node].heard = bus_.executor().Now();
+    ++nodes_[node].times;
   });
   // Who was silent before this process was started anew is so until it is heard.
   for (const std::string& key : alarms.unconfirmed()) {
-    if (key.starts_with(kNodeSilent)) nodes_[key.substr(kNodeSilent.size())] = 0;
+    if (key.starts_with(kNodeSilent)) nodes_[key.substr(kNodeSilent.size())] = {0, kKnown};
   }
   bus.executor().Every(kLookPeriod, [this] { Look(); });
 }
 
 void SilenceWatch::Look() {
   const bus::Utime now = bus_.executor().Now();
-  for (const auto& [node, heard] : nodes_) {
+  for (const auto& [node, last] : nodes_) {
     const AlarmCondition silence = NodeSilent(node);
-    if (now - heard >= kSilentAfter) {
+    if (now - last.heard >= kSilentAfter) {
+      if (last.times < kKnown) continue;
       alarms_.Raise(silence);
     } else {
       alarms_.End(silence.key);

@@ -19,7 +19,11 @@ class SilenceWatch {
 
   bus::Bus& bus_;
   AlarmDesk& alarms_;
-  std::map<std::string, bus::Utime> nodes_;  ///< when last heard
+  struct Node {
+    bus::Utime heard = 0;  ///< last
+    int times = 0;
+  };
+  std::map<std::string, Node> nodes_;
 };
 
 }  // namespace skein::monitor

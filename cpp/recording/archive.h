@@ -64,7 +64,9 @@ class ArchiveReader {
  private:
   template <typename T>
   void One(T& field) {
-    if constexpr (std::is_arithmetic_v<T>) {
+    if constexpr (std::is_same_v<T, bool>) {
+      field = Take(sizeof field).front() != 0;  // any byte may stand in a damaged file
+    } else if constexpr (std::is_arithmetic_v<T>) {
       std::memcpy(&field, Take(sizeof field).data(), sizeof field);
     } else {
       Describe(*this, field);

@@ -19,6 +19,8 @@ CHANNELS = [b"FLEET_STATE", b"CMD_FLEET", b"FLEET_ROSTER", b"HEARTBEAT", b"CMD_L
 def mutated(datagram, rng):
     data = bytearray(datagram)
     for _ in range(rng.choice((1, 1, 2, 8))):
+        if not data:
+            break
         # Not the channel's name: what nobody has subscribed to is heard by nobody.
         at = rng.randrange(min(24, len(data) - 1), len(data))
         kind = rng.randrange(4)
