@@ -194,7 +194,7 @@ test("tiles of a server come with its attribution; when it dies, that is told, a
 });
 
 test("no request left this machine, and nothing was complained of but that bridges went, and their maps with them", () => {
-  const of_bridges = /WebSocket connection|ERR_CONNECTION_REFUSED|404 \(Not Found\) .*\/tiles[./]/;
+  const of_bridges = /WebSocket connection|ERR_CONNECTION_(REFUSED|RESET)|404 \(Not Found\) .*\/tiles[./]/;
   expect(screen.complaints.filter((text) => !of_bridges.test(text))).toEqual([]);
   const tile_url = `http://127.0.0.1:${(tile_server?.address() as AddressInfo).port}/`;
   expect(screen.strangers.filter((url) => !url.startsWith(tile_url))).toEqual([]);
