@@ -267,6 +267,20 @@ TEST_F(ControllerNodeTest, StartsANewFormationWhereItsUavsFly) {
   EXPECT_EQ(node_->flights().size(), 2u);
 }
 
+TEST_F(ControllerNodeTest, MovesNoLeaderForOneTickWithAFalseTime) {
+  Start();
+  SendRoster();
+  Fly(30);
+  const double before_m = node_->flights().at(1).leader().arc_m();
+  clock_error_ = 8 * bus::kSecond;  // a greater one the chunks' order does not let through
+  Fly(1);
+  clock_error_ = 0;
+  Fly(20);
+  const double flown_m = node_->flights().at(1).leader().arc_m() - before_m;
+  EXPECT_GT(flown_m, 20);
+  EXPECT_LT(flown_m, 21 * 0.05 * 100);
+}
+
 TEST_F(ControllerNodeTest, GoesOnCommandingWhenTheFleetsClockIsSetBack) {
   Start();
   SendRoster();

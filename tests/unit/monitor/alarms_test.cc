@@ -230,6 +230,16 @@ TEST_F(MonitorAlarms, TellPairsThatComeTooClose) {
   EXPECT_EQ(StateOf("proximity:1-4"), kEnded);
 }
 
+TEST_F(MonitorAlarms, DoNotMissANodeThatWasHeardOnce) {
+  Start();
+  heartbeat_t heartbeat{};
+  heartbeat.utime = executor_.Now();
+  heartbeat.heartbeat_node = "fleet-simulat5r";
+  station_.Publish(bus::channel::kHeartbeat, heartbeat);
+  Run(10);
+  EXPECT_FALSE(Find("node_silent:fleet-simulat5r"));
+}
+
 TEST_F(MonitorAlarms, TellANodeThatHasFallenSilent) {
   bool alive = true;
   executor_.Every(bus::kSecond, [&] {
