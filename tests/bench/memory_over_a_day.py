@@ -19,7 +19,7 @@ def resident_mb(pid):
 
 
 def main():
-    scenario = sys.argv[1] if len(sys.argv) > 1 else "column-drops"
+    scenario = sys.argv[1] if len(sys.argv) > 1 else "column"
     seconds = sys.argv[2] if len(sys.argv) > 2 else "86400"
     flight = subprocess.Popen([BUILD / "bin" / "flight-experiment", scenario, "--duration", seconds, "--log-level", "off"],
                               stdout=subprocess.PIPE, text=True)
