@@ -106,6 +106,7 @@ const apart = (a: Centre, b: Centre) => Math.hypot(a.x - b.x, a.y - b.y);
 /** Fits the fleet into the map and waits until the map has come to rest; a click before would miss, and a second one zoom. */
 async function fit(): Promise<void> {
   await screen.page.keyboard.press("f");
+  await screen.nextFrames();
   let before = await uavAt(1);
   await until(async () => {
     const [at, moved_from] = [await uavAt(1), before];

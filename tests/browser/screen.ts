@@ -252,7 +252,11 @@ export class Screen {
     // Where something is being typed it would only be one more letter.
     if (!(await this.page.evaluate(() => document.activeElement instanceof HTMLInputElement)))
       await this.page.keyboard.press("f");
-    // Two frames of the screen: the new size and theme are drawn.
+    await this.nextFrames();
+  }
+
+  /** Waits for two frames of the screen, so that what was changed before is drawn. */
+  async nextFrames(): Promise<void> {
     await this.page.evaluate(
       () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
     );

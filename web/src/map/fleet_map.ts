@@ -99,6 +99,8 @@ export class FleetMap implements MapAccess {
 
   fit(): void {
     this.to_fit = true;
+    // Not only with the next frame: whatever is done next is meant for the fitted map.
+    if (this.local !== null) this.fitNow(this.local, performance.now());
     this.drawAtOnce();
   }
 
@@ -288,8 +290,7 @@ export class FleetMap implements MapAccess {
   }
 
   private measureScale(view: View): void {
-    const latitude_deg = this.leaflet.getCenter().lat;
-    const metres_per_pixel = 1 / pixelsPerMetre(view, latitude_deg);
+    const metres_per_pixel = 1 / pixelsPerMetre(view, this.leaflet.getCenter().lat);
     const grid_m = localGridStep_m(view, this.local);
     const known = this.scale.peek();
     if (known?.metres_per_pixel !== metres_per_pixel || known.grid_m !== grid_m) {
