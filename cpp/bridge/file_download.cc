@@ -1,8 +1,6 @@
 #include "bridge/file_download.h"
 
 #include <algorithm>
-#include <boost/asio/as_tuple.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/file_posix.hpp>
 #include <boost/beast/http/empty_body.hpp>
@@ -11,15 +9,15 @@
 #include <chrono>
 #include <string>
 
+#include "bridge/await.h"
+
 namespace skein::bridge {
 namespace {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-using Error = boost::system::error_code;
 
-constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::uint64_t kPieceBytes = 256 * 1024;
 // Of one piece: 70 kbit/s.
 constexpr std::chrono::seconds kPieceTime{30};

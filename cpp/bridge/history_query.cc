@@ -1,19 +1,12 @@
 #include "bridge/history_query.h"
 
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "bridge/url.h"
+
 namespace skein::bridge {
 namespace {
-
-template <typename Number>
-std::optional<Number> Parse(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 /// Cuts off what comes before the next `separator`.
 std::string_view Next(std::string_view& rest, char separator) {
@@ -32,12 +25,12 @@ std::variant<HistoryQuery, std::string> ParseHistoryQuery(std::string_view query
     const std::string_view name = Next(value, '=');
     if (name == "ids") {
       while (!value.empty()) {
-        const auto id = Parse<std::int32_t>(Next(value, ','));
+        const auto id = ParseNumber<std::int32_t>(Next(value, ','));
         if (!id || *id < 1) return "ids: must be whole numbers from 1 on, with commas between them.";
         result.ids.push_back(*id);
       }
     } else if (name == "since") {
-      const auto since_s = Parse<double>(value);
+      const auto since_s = ParseNumber<double>(value);
       if (!since_s || !std::isfinite(*since_s)) return "since: must be seconds since the scenario's start.";
       result.since_s = *since_s;
     } else {

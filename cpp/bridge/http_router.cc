@@ -16,7 +16,6 @@ namespace http = boost::beast::http;
 using http::field;
 using http::status;
 
-constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kHealth = "/api/health";
 constexpr std::string_view kCommand = "/api/command";
 constexpr std::string_view kFormationPreview = "/api/preview/formation";

@@ -13,6 +13,8 @@ using HttpRequest = boost::beast::http::request<boost::beast::http::string_body>
 using HttpResponse = boost::beast::http::response<boost::beast::http::string_body>;
 using HttpHead = boost::beast::http::request_header<>;
 
+inline constexpr std::string_view kJson = "application/json";
+
 inline std::string_view View(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
 /// A target up to its question mark.

@@ -7,14 +7,6 @@
 namespace skein::bridge {
 namespace {
 
-/// Applies ToJson-like `convert` to each.
-template <typename Items, typename Convert>
-Json Each(const Items& items, Convert convert) {
-  Json result = Json::array();
-  for (const auto& item : items) result.push_back(convert(item));
-  return result;
-}
-
 Json Vehicle(const vehicle_info_t& info) {
   return {{"id", info.id},
           {"callsign", info.callsign},

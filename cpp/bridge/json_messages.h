@@ -27,6 +27,14 @@ Json ToJson(const recording_status_t& status);
 /// Without "line".
 Json ToJson(const path_t& path);
 
+/// What `convert` makes of each, as an array.
+template <typename Items, typename Convert>
+Json Each(const Items& items, Convert convert) {
+  Json result = Json::array();
+  for (const auto& item : items) result.push_back(convert(item));
+  return result;
+}
+
 /// Text of it; bytes that are no UTF-8 (a stranger's callsign) become U+FFFD instead of an exception.
 std::string Dump(const Json& json);
 

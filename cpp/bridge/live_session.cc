@@ -1,10 +1,10 @@
 #include "bridge/live_session.h"
 
-#include <boost/asio/as_tuple.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/buffers_to_string.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
+
+#include "bridge/await.h"
 
 namespace skein::bridge {
 namespace {
@@ -12,9 +12,7 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace websocket = beast::websocket;
-using Error = boost::system::error_code;
 
-constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t kMaxMessageBytes = 1u << 20;
 // What the kernel holds back for a slow browser is old by the time it arrives; so little of it.
 constexpr int kSendBufferBytes = 256 * 1024;

@@ -11,6 +11,7 @@
 #include "bridge/static_files.h"
 #include "bridge/web_bridge.h"
 #include "bus/node_main.h"
+#include "bus/number_checks.h"
 
 int main(int argc, char** argv) {
   namespace bridge = skein::bridge;
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
       .add_option("--replay-speed", replay_speed,
                   "So many times as fast as it was it is played, for the page to say")
       ->needs(replay_option)
-      ->check(CLI::PositiveNumber)
+      ->check(skein::bus::Positive())
       ->capture_default_str();
   bridge::RecordingOptions recordings;
   bridge::AddRecordingOptions(node, recordings);

@@ -16,13 +16,6 @@ Json OrNull(const std::optional<Value>& value, Convert convert) {
   return value ? Json(convert(*value)) : Json(nullptr);
 }
 
-template <typename Items, typename Convert>
-Json Each(const Items& items, Convert convert) {
-  Json result = Json::array();
-  for (const auto& item : items) result.push_back(convert(item));
-  return result;
-}
-
 Json Approach(const experiment::CylinderApproach& pair) {
   return {{"horizontal_m", Metres(pair.horizontal_m)},
           {"vertical_m", Metres(pair.vertical_m)},

@@ -1,6 +1,5 @@
 #include "bridge/recordings_router.h"
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -19,15 +18,6 @@ constexpr std::string_view kList = "/api/recordings";
 constexpr std::string_view kOne = "/api/recordings/";
 constexpr std::string_view kFile = "/file";
 constexpr std::string_view kHistory = "/api/history";
-constexpr std::string_view kJson = "application/json";
-
-template <typename Number>
-std::optional<Number> Parse(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
 
 /// NAME of "/api/recordings/NAME" or "/api/recordings/NAME/file"; names have no slash.
 struct Target {
@@ -84,7 +74,7 @@ HttpResponse RecordingsRouter::Answer(const HttpRequest& request) const {
 
 HttpResponse RecordingsRouter::History(std::string_view query) const {
   const auto at = QueryValue(query, "at");
-  const auto at_s = at ? Parse<double>(*at) : std::nullopt;
+  const auto at_s = at ? ParseNumber<double>(*at) : std::nullopt;
   if (at && !at_s)
     return Sentence(status::bad_request, "at: must be seconds since the recording's first event.");
   const auto parsed = ParseHistoryQuery(QueryWithout(query, {"recording", "at"}));
@@ -116,7 +106,7 @@ std::optional<RecordingsRouter::Download> RecordingsRouter::FindFile(const HttpR
   const auto parsed = recordings_ ? ParseTarget(target) : std::nullopt;
   if (!parsed || !parsed->file) return std::nullopt;
   const auto part = QueryValue(QueryOf(target), "part");
-  const auto file = recordings_->file(parsed->name, part ? Parse<int>(*part).value_or(-1) : 0);
+  const auto file = recordings_->file(parsed->name, part ? ParseNumber<int>(*part).value_or(-1) : 0);
   std::error_code error;
   const std::uint64_t size = file ? std::filesystem::file_size(*file, error) : 0;
   if (!file || error) return std::nullopt;

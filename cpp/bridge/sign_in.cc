@@ -8,7 +8,6 @@ namespace {
 namespace http = boost::beast::http;
 using http::status;
 
-constexpr std::string_view kJson = "application/json";
 constexpr std::string_view kTwelveHours = "43200";
 
 /// @param secret "": the browser is to forget it.

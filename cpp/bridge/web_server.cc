@@ -3,17 +3,16 @@
 #include <spdlog/spdlog.h>
 
 #include <array>
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
 #include <exception>
 
+#include "bridge/await.h"
 #include "bridge/file_download.h"
 #include "bus/transport.h"
 
@@ -23,11 +22,9 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;
-using Error = boost::system::error_code;
 using Tcp = asio::ip::tcp;
 using std::chrono::seconds;
 
-constexpr auto kAwait = asio::as_tuple(asio::use_awaitable);
 // A whole header must have come in by then, also the next one of a connection that is kept.
 constexpr seconds kHeaderTime{20};
 constexpr seconds kBodyTime{20};

@@ -4,18 +4,17 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cerrno>
+#include <cstring>
 #include <exception>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
+#include "bus/transport.h"
+
 namespace skein::bus {
-namespace {
-
-// LCM drops silently past this. A node that is this far behind has lost touch anyway.
-constexpr int kQueueCapacity = 10'000;
-
-}  // namespace
 
 struct Bus::Impl {
   struct Subscription {
@@ -30,7 +29,7 @@ struct Bus::Impl {
         if (handler(buffer->data, buffer->data_size)) {
           ++impl.statistics.messages_in;
         } else {
-          ++impl.statistics.undecodable;
+          impl.CountRefusal(channel);
         }
       } catch (const std::exception& error) {
         impl.CountException(channel, error.what());
@@ -41,6 +40,11 @@ struct Bus::Impl {
           std::max(impl.statistics.worst_handler_us, impl.executor.Now() - start);
     }
   };
+
+  void CountRefusal(const std::string& refused_channel) {
+    ++statistics.undecodable;
+    if (refused.insert(refused_channel).second) newly_refused.push_back(refused_channel);
+  }
 
   void CountException(const std::string& channel, const char* what) {
     ++statistics.handler_exceptions;
@@ -55,10 +59,15 @@ struct Bus::Impl {
   bool logs = true;
   std::vector<std::unique_ptr<Subscription>> subscriptions;
   std::vector<std::byte> encode_buffer;
+  std::set<std::string> refused;  ///< channels on which anything was
+  std::vector<std::string> newly_refused;
+  std::int64_t event_sequence = 0;
+  std::int64_t unsent = 0;  ///< messages in a row
 };
 
 Bus::Bus(std::shared_ptr<lcm::LCM> transport, std::string node, Executor& executor)
-    : impl_(new Impl{std::move(transport), std::move(node), executor, executor.Now(), {}, true, {}, {}}) {
+    : impl_(new Impl{
+          std::move(transport), std::move(node), executor, executor.Now(), {}, true, {}, {}, {}, {}, {}}) {
   assert(impl_->transport && impl_->transport->good());
 }
 
@@ -84,13 +93,23 @@ std::byte* Bus::EncodeBuffer(std::size_t size) {
 void Bus::PublishBytes(const std::string& channel, int size) {
   assert(size > 0);
   if (impl_->transport->publish(channel, impl_->encode_buffer.data(), static_cast<unsigned>(size)) != 0) {
-    spdlog::warn("{}: {} could not be sent", impl_->node, channel);
+    // No route, or an interface that is down: twenty times a second, until somebody mends it.
+    if (impl_->unsent++ == 0)
+      spdlog::warn("{}: {} could not be sent: {}", impl_->node, channel, std::strerror(errno));
     return;
+  }
+  if (impl_->unsent > 0) {
+    spdlog::warn("{}: messages can be sent again; {} could not", impl_->node, impl_->unsent);
+    impl_->unsent = 0;
   }
   ++impl_->statistics.messages_out;
 }
 
 void Bus::CountGaps(std::int64_t missed) { impl_->statistics.gaps += missed; }
+
+void Bus::CountRefusal(const std::string& channel) { impl_->CountRefusal(channel); }
+std::vector<std::string> Bus::TakeNewlyRefused() { return std::exchange(impl_->newly_refused, {}); }
+std::int64_t Bus::NextEventSequence() { return ++impl_->event_sequence; }
 
 std::int64_t Bus::TakeWorstHandler() { return std::exchange(impl_->statistics.worst_handler_us, 0); }
 

@@ -6,6 +6,7 @@
 #include <lcm/lcm-cpp.hpp>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "bus/decode.h"
 #include "bus/executor.h"
@@ -58,6 +59,14 @@ class Bus {
 
   /// Adds to the gaps that HEARTBEAT reports (see ChunkAssembler).
   void CountGaps(std::int64_t missed);
+  /// Adds to what HEARTBEAT reports as undecodable: messages that are well by themselves, but not with
+  /// others.
+  void CountRefusal(const std::string& channel);
+  /// Channels on which something was refused for the first time since the last call.
+  std::vector<std::string> TakeNewlyRefused();
+
+  /// For Events: 1, 2, ...
+  std::int64_t NextEventSequence();
 
   /// Longest handler since the last call [us], for HEARTBEAT.
   std::int64_t TakeWorstHandler();

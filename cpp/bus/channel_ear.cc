@@ -3,10 +3,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bus/transport.h"
+
 namespace skein::bus {
 namespace {
 
-constexpr int kQueueCapacity = 10'000;
 // No message is longer; an 8-byte datagram arrives as one of 4294967282 bytes.
 constexpr std::size_t kMostBytes = std::size_t{1} << 28;
 

@@ -100,6 +100,7 @@ class ChunkAssembler {
     std::int64_t gaps =
         0;  ///< chunks and sets that are now known to be missing (a missing set counts as its chunks)
     bool time_jumped = false;
+    bool too_many = false;  ///< items in the set: it is given up
   };
   Found Add(const Message& message);
 
@@ -109,6 +110,7 @@ class ChunkAssembler {
   struct Stream {
     SetOrder order;
     std::map<int, Message> chunks;  ///< of the current set
+    std::size_t items = 0;          ///< in them
     int chunk_count = 0;
     bool delivered = true;
   };
@@ -117,6 +119,8 @@ class ChunkAssembler {
 
   // More streams than this are noise.
   static constexpr std::size_t kMostStreams = 10'000;
+  // Ten times the fleet that Skein is made for: what a node remembers of a set is bounded, whatever is sent.
+  static constexpr std::size_t kMostItems = 50'000;
 
   Handler handler_;
   std::map<std::int64_t, Stream> streams_;
@@ -138,11 +142,18 @@ typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Messa
       found.gaps += (Traits::Set(message) - last_set - 1) * message.chunk_count;
     }
     stream.chunks.clear();
+    stream.items = 0;
     stream.chunk_count = message.chunk_count;
     stream.delivered = false;
   }
   if (stream.delivered || message.chunk_count != stream.chunk_count) return found;
-  stream.chunks.emplace(message.chunk, message);
+  if (stream.chunks.emplace(message.chunk, message).second) stream.items += Traits::Items(message).size();
+  if (stream.items > kMostItems) {
+    stream.chunks.clear();
+    stream.delivered = true;
+    found.too_many = true;
+    return found;
+  }
   if (static_cast<int>(stream.chunks.size()) == stream.chunk_count) Deliver(stream);
   return found;
 }
@@ -175,6 +186,7 @@ void SubscribeChunks(Bus& bus, const std::string& channel, typename ChunkAssembl
                 assembler = ChunkAssembler<Message>(std::move(handler))](const Message& message) mutable {
         const auto found = assembler.Add(message);
         bus.CountGaps(found.gaps);
+        if (found.too_many) bus.CountRefusal(channel);
         if (found.time_jumped && events) {
           events->Tell(event_t::ADVISORY, "time_jumped",
                        "the time stamps of " + channel + " have jumped; they are taken again");

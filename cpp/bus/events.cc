@@ -10,7 +10,7 @@ void Events::Tell(std::int8_t severity, const std::string& code, const std::stri
   event_t event;
   event.utime = bus_.executor().Now();
   event.event_node = bus_.node();
-  event.event_sequence = ++sequence_;
+  event.event_sequence = bus_.NextEventSequence();
   event.severity = severity;
   event.code = code;
   event.vehicle_id = about.vehicle_id;

@@ -26,7 +26,6 @@ class Events {
 
  private:
   Bus& bus_;
-  std::int64_t sequence_ = 0;
 };
 
 }  // namespace skein::bus

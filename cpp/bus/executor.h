@@ -23,8 +23,11 @@ class Executor {
  public:
   virtual ~Executor() = default;
 
-  /// Live: the wall clock at the process's start plus the steady clock. Simulated: the simulated time.
+  /// Live: the time of this host's Skein (bus/host_clock.h). Simulated: the simulated time.
   virtual Utime Now() const = 0;
+
+  /// How far the wall clock is ahead of Now(), because it was set.
+  virtual Utime WallAhead() const { return 0; }
 
   /// Calls `callback` at phase + n * period for every n that lies in the future; a late one is called once,
   /// not made up for.

@@ -33,11 +33,6 @@ sigset_t EndSignals() {
   return signals;
 }
 
-template <typename Clock>
-Utime Microseconds() {
-  return std::chrono::duration_cast<std::chrono::microseconds>(Clock::now().time_since_epoch()).count();
-}
-
 int Checked(int fd, const char* what) {
   if (fd < 0) throw std::system_error(errno, std::generic_category(), what);
   return fd;
@@ -60,9 +55,7 @@ void BlockEndSignals() {
 }
 
 LiveExecutor::LiveExecutor(std::shared_ptr<lcm::LCM> transport)
-    : transport_(std::move(transport)),
-      wall_start_(Microseconds<std::chrono::system_clock>()),
-      steady_start_(Microseconds<std::chrono::steady_clock>()) {
+    : transport_(std::move(transport)), clock_(TheHostClock()) {
   assert(transport_ && transport_->good());
   BlockEndSignals();
   const sigset_t signals = EndSignals();
@@ -73,10 +66,6 @@ LiveExecutor::LiveExecutor(std::shared_ptr<lcm::LCM> transport)
 LiveExecutor::~LiveExecutor() {
   close(wake_fd_);
   close(signal_fd_);
-}
-
-Utime LiveExecutor::Now() const {
-  return wall_start_ + Microseconds<std::chrono::steady_clock>() - steady_start_;
 }
 
 void LiveExecutor::Every(Utime period, std::function<void()> callback, Utime phase) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bus/executor.h"
+#include "bus/host_clock.h"
 #include "bus/timer_queue.h"
 
 namespace skein::bus {
@@ -25,8 +26,9 @@ class LiveExecutor : public Executor {
   LiveExecutor(const LiveExecutor&) = delete;
   LiveExecutor& operator=(const LiveExecutor&) = delete;
 
-  /// The wall clock when this was made plus the steady clock since: a stepped wall clock moves nothing.
-  Utime Now() const override;
+  /// The time of this host's Skein (bus/host_clock.h): a wall clock that is set moves nothing.
+  Utime Now() const override { return clock_.Now(); }
+  Utime WallAhead() const override { return clock_.WallAhead(); }
   void Every(Utime period, std::function<void()> callback, Utime phase = 0) override;
   void At(Utime when, std::function<void()> callback) override;
   void PauseBurst() override;
@@ -48,8 +50,7 @@ class LiveExecutor : public Executor {
   void RunPosted();
 
   std::shared_ptr<lcm::LCM> transport_;
-  Utime wall_start_;
-  Utime steady_start_;
+  const HostClock& clock_;
   int wake_fd_;
   int signal_fd_;
   std::atomic<bool> stop_ = false;

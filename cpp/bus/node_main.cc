@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "bus/heartbeat.h"
+#include "bus/hub.h"
 #include "bus/only_one.h"
+#include "bus/refusals.h"
 
 namespace skein::bus {
 namespace {
@@ -66,11 +68,13 @@ int NodeMain::RunLive(const MakeNode& make_node) {
         if (read_) read_();
       }))
     return kExitUsage;
+  if (!AwaitHub(lcm_url_)) return kExitGood;
   const Transport transport = MakeTransport(lcm_url_);
   if (only_one_ && !AwaitTurn(transport, name_)) return kExitGood;
   LiveExecutor executor(transport.lcm);
   Bus bus(transport.lcm, name_, executor);
   StartHeartbeat(bus, transport.receive_buffer_bytes);
+  TellRefusals(bus);
   std::optional<Turn> turn;
   if (only_one_) turn.emplace(bus, transport.receive_buffer_bytes, [&executor] { executor.Stop(); });
   std::shared_ptr<void> node;

@@ -19,8 +19,12 @@ class SimulatedExecutor : public Executor {
   explicit SimulatedExecutor(std::shared_ptr<lcm::LCM> transport, Utime start = kStart);
 
   Utime Now() const override { return now_; }
+  Utime WallAhead() const override { return wall_ahead_; }
   void Every(Utime period, std::function<void()> callback, Utime phase = 0) override;
   void At(Utime when, std::function<void()> callback) override;
+
+  /// As if somebody had set the wall clock.
+  void SetWallAhead(Utime ahead) { wall_ahead_ = ahead; }
 
   /// Delivers what is queued, then runs everything that is due up to `utime`, that moment included; it is
   /// `utime` after.
@@ -36,6 +40,7 @@ class SimulatedExecutor : public Executor {
  private:
   std::shared_ptr<lcm::LCM> transport_;
   Utime now_;
+  Utime wall_ahead_ = 0;
   TimerQueue timers_;
 };
 

@@ -10,6 +10,10 @@ namespace skein::bus {
 
 inline constexpr const char* kDefaultUrl = "udpm://239.255.76.67:7667?ttl=0";
 
+/// Messages of a subscription that wait. LCM drops silently past this; a node that is this far behind has
+/// lost touch anyway.
+inline constexpr int kQueueCapacity = 10'000;
+
 /// LCM_DEFAULT_URL when set, else kDefaultUrl.
 std::string DefaultUrl();
 

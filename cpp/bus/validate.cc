@@ -9,6 +9,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace skein::bus {
 namespace {
@@ -154,6 +155,18 @@ bool ValidItems(const Items& items) {
   return Every(items, [](const auto& item) { return ValidItem(item); });
 }
 
+/// Whether no two items have the same id. Senders mostly have them in order.
+template <typename Items, typename Member>
+bool Unique(const Items& items, Member id) {
+  const auto not_rising = [id](const auto& a, const auto& b) { return a.*id >= b.*id; };
+  if (std::ranges::adjacent_find(items, not_rising) == items.end()) return true;
+  std::vector<std::int32_t> ids;
+  ids.reserve(items.size());
+  for (const auto& item : items) ids.push_back(item.*id);
+  std::ranges::sort(ids);
+  return std::ranges::adjacent_find(ids) == ids.end();
+}
+
 template <typename Command>
 bool ValidRequest(const Command& command) {
   return Time(command.utime) && Sequence(command.session_id) && Sequence(command.request_id) &&
@@ -208,19 +221,21 @@ bool Valid(const event_t& event) {
 
 bool Valid(const fleet_command_t& command) {
   return ValidRequest(command) && Sequence(command.state_tick) && Chunk(command.chunk, command.chunk_count) &&
-         ValidItems(command.commands);
+         ValidItems(command.commands) && Unique(command.commands, &vehicle_command_t::id);
 }
 
 bool Valid(const fleet_roster_t& roster) {
   return Time(roster.utime) && Sequence(roster.session_id) && Text(roster.scenario) &&
          Time(roster.start_utime) && Within(roster.origin_latitude_deg, -90, 90) &&
          Within(roster.origin_longitude_deg, -180, 180) && Number(roster.origin_altitude_m) &&
-         Sequence(roster.revision) && Chunk(roster.chunk, roster.chunk_count) && ValidItems(roster.vehicles);
+         Sequence(roster.revision) && Chunk(roster.chunk, roster.chunk_count) &&
+         ValidItems(roster.vehicles) && Unique(roster.vehicles, &vehicle_info_t::id);
 }
 
 bool Valid(const fleet_state_t& state) {
   return Time(state.utime) && Sequence(state.session_id) && Sequence(state.tick) &&
-         Chunk(state.chunk, state.chunk_count) && ValidItems(state.vehicles);
+         Chunk(state.chunk, state.chunk_count) && ValidItems(state.vehicles) &&
+         Unique(state.vehicles, &vehicle_state_t::id);
 }
 
 bool Valid(const formation_command_t& command) {
@@ -236,7 +251,7 @@ bool Valid(const formation_status_t& status) {
                   status.leader_course_rad, status.leader_climb_rad, status.leader_arc_m,
                   status.avoidance_up_m, status.avoidance_rate_m_s, status.avoidance_target_m}) &&
          Sequence(status.path_revision) && Chunk(status.chunk, status.chunk_count) &&
-         ValidItems(status.slots);
+         ValidItems(status.slots) && Unique(status.slots, &slot_status_t::vehicle_id);
 }
 
 bool Valid(const formation_t& formation) {
@@ -245,7 +260,8 @@ bool Valid(const formation_t& formation) {
          NotNegative(formation.spacing_m) && NotNegative(formation.lead_m) && Positive(formation.radius_m) &&
          Positive(formation.height_m) && formation.d_mod_m >= formation.radius_m &&
          Positive(formation.caution_tau_s) && formation.advisory_tau_s > formation.caution_tau_s &&
-         Every(formation.slots, [](const slot_t& slot) { return Id(slot.vehicle_id); });
+         Every(formation.slots, [](const slot_t& slot) { return Id(slot.vehicle_id); }) &&
+         Unique(formation.slots, &slot_t::vehicle_id);
 }
 
 bool Valid(const heartbeat_t& heartbeat) {
@@ -264,7 +280,7 @@ bool Valid(const link_command_t& command) {
 
 bool Valid(const link_status_t& status) {
   return Time(status.utime) && Sequence(status.sequence) && Chunk(status.chunk, status.chunk_count) &&
-         ValidItems(status.links);
+         ValidItems(status.links) && Unique(status.links, &vehicle_link_t::id);
 }
 
 bool Valid(const path_command_t& command) { return ValidRequest(command) && ValidItems(command.waypoints); }

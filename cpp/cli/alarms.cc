@@ -16,8 +16,6 @@ namespace skein::cli {
 namespace {
 
 constexpr const char* kMonitor = "collision-monitor";
-// ALARMS are repeated at 1 Hz.
-constexpr bus::Utime kLongestPeriod = 2'500'000;
 constexpr std::array<std::string_view, 4> kSeverities = {"-", "advisory", "caution", "WARNING"};
 constexpr std::array<std::string_view, 5> kStates = {"UNACKNOWLEDGED", "acknowledged",
                                                      "ended, unacknowledged", "shelved", "over"};
@@ -66,7 +64,7 @@ void SetIds(alarm_command_t& command, const std::vector<std::string>& ids) {
 
 void Send(Station& station, const alarm_command_t& command, const std::string& done, std::ostream& out) {
   const std::string remark = station.Ask(bus::channel::kCmdAlarm, command, kMonitor);
-  out << done << (remark.empty() ? "" : ": " + remark) << '\n';
+  Done(out, done, remark);
 }
 
 std::string Names(const std::vector<std::string>& ids) {

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "bus/number_checks.h"
 #include "bus/transport.h"
 #include "cli/recording.h"
 
@@ -17,7 +18,7 @@ CLI::App* Group(CLI::App& app, const char* name, const char* description) {
 }
 
 CLI::Option* AddId(CLI::App* command, int& id) {
-  return command->add_option("id", id, "Number of the formation")->check(CLI::PositiveNumber);
+  return command->add_option("id", id, "Number of the formation")->check(bus::Positive());
 }
 
 }  // namespace
@@ -50,14 +51,14 @@ void CommandLine::AddLink() {
   const auto add_options = [this](CLI::App* command) {
     command->add_option("vehicle", link_.vehicles, kVehiclesHelp)->required();
     command->add_option("--at", link_.at_s, "When, in seconds of the scenario (default: now)")
-        ->check(CLI::NonNegativeNumber);
+        ->check(bus::NotNegative());
     auto* up = command->add_flag("--up-only", link_.up_only, "The uplink alone (station to UAV)");
     command->add_flag("--down-only", link_.down_only, "The downlink alone (UAV to station)")->excludes(up);
   };
   CLI::App* cut = group->add_subcommand("cut", "Cut a link");
   add_options(cut);
   cut->add_option("--for", link_.for_s, "For so many seconds (default: until restored)")
-      ->check(CLI::PositiveNumber);
+      ->check(bus::Positive());
   cut->add_flag("--frozen", link_.frozen, "Repeat the last state instead of falling silent");
   cut->callback(
       [this] { command_ = [this](Station& station, std::ostream& out) { CutLink(station, link_, out); }; });
@@ -109,7 +110,7 @@ void CommandLine::AddPath() {
       ->required()
       ->check(CLI::ExistingFile);
   upload->add_option("--formation", path_.formation_id, "Number of the formation (default: the only one)")
-      ->check(CLI::PositiveNumber);
+      ->check(bus::Positive());
   upload->add_flag("--closed", path_.closed, "Fly it round and round");
   upload->callback([this] {
     command_ = [this](Station& station, std::ostream& out) { UploadPath(station, path_, out); };
@@ -176,7 +177,7 @@ void CommandLine::AddAlarms() {
   CLI::App* shelve = group->add_subcommand("shelve", "Put alarms away for a time");
   shelve->add_option("id", alarm_ids_, "Numbers as `skein alarms` lists them")->required();
   shelve->add_option("--for", shelve_s_, "For so many seconds, 1 to 3600")
-      ->check(CLI::Range(1, 3600))
+      ->check(bus::Between(1, 3600))
       ->capture_default_str();
   shelve->callback([this] {
     command_ = [this](Station& station, std::ostream& out) {
@@ -220,7 +221,7 @@ void CommandLine::AddSpy() {
                   "in chunks)")
       ->needs(channel);
   spy->add_option("--for", spy_.for_s, "End after so many seconds (default: Ctrl-C ends it)")
-      ->check(CLI::PositiveNumber);
+      ->check(bus::Positive());
   spy->add_flag("--once", spy_.once, "One table after 2.5 s (or --for), or the next message, and end");
   spy->add_flag("--json", spy_.json, "As JSON, a line for each table or message");
   spy->callback(

@@ -14,6 +14,7 @@
 #include "cli/formation_file.h"
 #include "cli/geojson.h"
 #include "cli/status.h"
+#include "cli/terminal.h"
 #include "cli/vehicles.h"
 #include "core/path_line.h"
 
@@ -22,18 +23,11 @@ namespace {
 
 namespace channel = bus::channel;
 
-constexpr const char* kSimulator = "fleet-simulator";
 constexpr const char* kController = "formation-controller";
-// What is repeated at 1 Hz has come by then.
-constexpr bus::Utime kLongestPeriod = 2'500'000;
 constexpr bus::Utime kWatchPeriod = bus::kSecond;
 
 config::Origin OriginOf(const fleet_roster_t& roster) {
   return {roster.origin_latitude_deg, roster.origin_longitude_deg, roster.origin_altitude_m};
-}
-
-void Done(std::ostream& out, const std::string& what, const std::string& remark) {
-  out << what << (remark.empty() ? "" : ": " + remark) << '\n';
 }
 
 /// @return utime at which a time of the scenario comes.
@@ -110,7 +104,6 @@ void CommandFormation(Station& station, std::int8_t action, int id, const char* 
 }
 
 // Home and clear to the end: no flicker.
-constexpr const char* kClearScreen = "\x1b[H\x1b[J";
 
 void Print(const Picture& picture, const StatusOptions& options, std::ostream& out) {
   if (options.json) {

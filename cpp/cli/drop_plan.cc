@@ -56,10 +56,9 @@ nlohmann::json ToJson(const std::string& cell) {
 }
 
 std::vector<Drop> ReadCsv(const std::filesystem::path& file) {
-  std::ifstream stream(file);
+  std::istringstream stream(config::ReadTextFile(file, "a list of drops"));
   std::string line;
-  if (!stream || !std::getline(stream, line))
-    throw config::ConfigError(file.string() + ": cannot be read, or is empty");
+  std::getline(stream, line);
   const auto heading = Cells(line);
   std::vector<Drop> drops;
   for (int number = 2; std::getline(stream, line); ++number) {

@@ -69,7 +69,7 @@ DropSchedule MakeSchedule(Station& station, const DropsOptions& options, bus::Ut
     return {now + lead, FromRandom(RandomPlan(options.random_drops, std::move(vehicles)), options.count)};
   }
   const bool is_list = !options.file.empty();
-  std::vector<Drop> drops = is_list ? ReadDrops(options.file) : FromOptions(options);
+  std::vector<Drop> drops = is_list ? options.list : FromOptions(options);
   const double span_s = drops.back().at_s - drops.front().at_s;
   if (options.repeat_s > 0 && options.repeat_s <= span_s) {
     throw config::ConfigError(fmt::format(

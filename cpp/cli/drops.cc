@@ -22,7 +22,6 @@ namespace {
 
 namespace channel = bus::channel;
 
-constexpr const char* kSimulator = "fleet-simulator";
 constexpr bus::Utime kLook = 20'000;
 constexpr bus::Utime kMonitorLimit = 3 * bus::kSecond;
 

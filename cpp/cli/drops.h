@@ -17,10 +17,11 @@ struct DropsOptions {
   double loss = -1;                ///< -1: 1, or 0 with a delay
   double delay_s = 0;
 
-  std::string file;       ///< a list instead
-  bool check = false;     ///< only read it and write it down anew
-  bool from_now = false;  ///< its times count from now, not from the scenario's start
-  double repeat_s = 0;    ///< the plan begins again every so often
+  std::string file;        ///< a list instead
+  std::vector<Drop> list;  ///< what it says
+  bool check = false;      ///< only read it and write it down anew
+  bool from_now = false;   ///< its times count from now, not from the scenario's start
+  double repeat_s = 0;     ///< the plan begins again every so often
 
   bool random = false;
   RandomDrops random_drops;

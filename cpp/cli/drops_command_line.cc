@@ -1,5 +1,7 @@
 #include "cli/command_line.h"
 
+#include "bus/number_checks.h"
+
 namespace skein::cli {
 
 void CommandLine::AddDrops() {
@@ -16,11 +18,11 @@ void CommandLine::AddDrops() {
   auto* random =
       drops->add_flag("--random", drops_.random, "Random drops, until stopped or --count")->excludes(list);
   drops->add_option("--at", drops_.at_s, "When, in seconds of the scenario (default: now)")
-      ->check(CLI::NonNegativeNumber)
+      ->check(bus::NotNegative())
       ->excludes(list)
       ->excludes(random);
   drops->add_option("--for", drops_.for_s, "For so many seconds")
-      ->check(CLI::Range(0.05, 1e6))
+      ->check(bus::Between(0.05, 1e6))
       ->capture_default_str()
       ->excludes(list)
       ->excludes(random);
@@ -30,11 +32,11 @@ void CommandLine::AddDrops() {
       ->check(CLI::IsMember({"up", "down", "both", "any"}))
       ->excludes(list);
   drops->add_option("--loss", drops_.loss, "Worse instead of cut: probability 0 .. 1 that a message is lost")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(bus::Between(0.0, 1.0))
       ->excludes(list)
       ->excludes(random);
   drops->add_option("--delay", drops_.delay_s, "Worse instead of cut: so many seconds late, 0 .. 60")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(bus::Between(0.0, 60.0))
       ->excludes(list)
       ->excludes(random);
   drops
@@ -47,10 +49,10 @@ void CommandLine::AddDrops() {
           "Only see whether the list can be read, and write it as CSV in order of time; needs no fleet")
       ->needs(list);
   drops->add_option("--repeat", drops_.repeat_s, "Begin again every so many seconds, until Ctrl-C")
-      ->check(CLI::PositiveNumber)
+      ->check(bus::Positive())
       ->excludes(random);
   drops->add_option("--count", drops_.count, "So many random drops (default: until Ctrl-C)")
-      ->check(CLI::PositiveNumber)
+      ->check(bus::Positive())
       ->needs(random);
   drops->add_option("--seed", drops_.random_drops.seed, "Of random drops")
       ->capture_default_str()
@@ -58,19 +60,19 @@ void CommandLine::AddDrops() {
   drops
       ->add_option("--rate", drops_.random_drops.per_minute,
                    "Random drops a minute, of the whole fleet on average")
-      ->check(CLI::Range(0.01, 6000.0))
+      ->check(bus::Between(0.01, 6000.0))
       ->capture_default_str()
       ->needs(random);
   drops->add_option("--shortest", drops_.random_drops.shortest_s, "Of random drops, seconds")
-      ->check(CLI::Range(0.05, 1e5))
+      ->check(bus::Between(0.05, 1e5))
       ->capture_default_str()
       ->needs(random);
   drops->add_option("--longest", drops_.random_drops.longest_s, "Of random drops, seconds")
-      ->check(CLI::Range(0.05, 1e5))
+      ->check(bus::Between(0.05, 1e5))
       ->capture_default_str()
       ->needs(random);
   drops->add_option("--limit", drops_.limit_s, "A cut is to be found within so many seconds")
-      ->check(CLI::PositiveNumber)
+      ->check(bus::Positive())
       ->capture_default_str();
   drops
       ->add_option("--hook", drops_.hook,
@@ -88,7 +90,7 @@ void CommandLine::AddDrops() {
       throw CLI::ValidationError("drops", "name a UAV, or give --list or --random");
     }
     if (!drops_.file.empty() && !drops_.vehicles.empty()) {
-      throw CLI::ValidationError("drops", "the UAVs are in the list");
+      throw CLI::ValidationError("drops", "give UAVs or --list, not both: the list says which UAVs");
     }
     if (drops_.random_drops.shortest_s > drops_.random_drops.longest_s) {
       throw CLI::ValidationError("--shortest", "must not be above --longest");
@@ -104,7 +106,11 @@ void CommandLine::AddDrops() {
       };
       return;
     }
-    command_ = [this](Station& station, std::ostream& out) { RunDrops(station, drops_, out); };
+    command_ = [this](Station& station, std::ostream& out) {
+      // What is wrong with it needs no fleet to be told.
+      if (!drops_.file.empty()) drops_.list = ReadDrops(drops_.file);
+      RunDrops(station, drops_, out);
+    };
   });
 }
 

@@ -14,8 +14,6 @@ namespace skein::cli {
 namespace {
 
 constexpr const char* kRecorder = "flight-recorder";
-// RECORDING is repeated at 1 Hz.
-constexpr bus::Utime kLongestPeriod = 2'500'000;
 constexpr std::array<std::string_view, 3> kStates = {"stopped", "recording", "interrupted"};
 
 std::string Ask(Station& station, std::int8_t action, const std::string& text) {
@@ -24,10 +22,6 @@ std::string Ask(Station& station, std::int8_t action, const std::string& text) {
   command.operator_name = OperatorName();
   command.text = text;
   return station.Ask(bus::channel::kCmdRecording, command, kRecorder);
-}
-
-void Done(std::ostream& out, const std::string& what, const std::string& remark) {
-  out << what << (remark.empty() ? "" : ": " + remark) << '\n';
 }
 
 const recording_status_t& Status(Station& station) {

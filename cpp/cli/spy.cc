@@ -18,14 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// What is repeated at 1 Hz has come by then.
-constexpr bus::Utime kLongestPeriod = 2'500'000;
 constexpr bus::Utime kTablePeriod = bus::kSecond;
 constexpr bus::Utime kMessagePeriod = bus::kSecond / 5;
 constexpr std::size_t kMostWaiting = 10'000;
 
 // Home and clear to the end: no flicker.
-constexpr const char* kClearScreen = "\x1b[H\x1b[J";
 
 /// A message of a channel is wanted when a field of it has a value.
 class Filter {
@@ -148,9 +145,10 @@ void SpyChannel(Station& station, const SpyOptions& options, std::ostream& out) 
       out << message.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
       out.flush();
     } else {
-      const Traffic::Rate rate = traffic.RateOf(channel, executor.Now());
-      screen.Show(fmt::format("{}  {}  {:.1f} Hz  {:.1f} kB/s  {} heard{}\n", options.channel, channel.type,
-                              rate.messages_s, rate.bytes_s / 1e3, channel.count,
+      const auto rate = traffic.RateOf(channel, executor.Now());
+      const std::string rates =
+          rate ? fmt::format("{:.1f} Hz  {:.1f} kB/s  ", rate->messages_s, rate->bytes_s / 1e3) : "";
+      screen.Show(fmt::format("{}  {}  {}{} heard{}\n", options.channel, channel.type, rates, channel.count,
                               channel.undecodable > 0 ? fmt::format(", {} bad", channel.undecodable) : "") +
                   MessageText(fields, Terminal().columns));
     }

@@ -26,6 +26,10 @@ Failure NotAnswered(const std::string& channel, const std::string& who) {
 
 }  // namespace
 
+void Done(std::ostream& out, const std::string& what, const std::string& remark) {
+  out << what << (remark.empty() ? "" : ": " + remark) << '\n';
+}
+
 std::string OperatorName() {
   const char* user = std::getenv("USER");
   return user && *user ? std::string("skein, ") + user : "skein";

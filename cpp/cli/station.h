@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <ostream>
 #include <skein/alarm_list_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/fleet_state_t.hpp>
@@ -35,6 +36,14 @@ class Failure : public std::runtime_error {
 class Interrupted : public Failure {
   using Failure::Failure;
 };
+
+/// What is repeated at 1 Hz has come by then.
+inline constexpr bus::Utime kLongestPeriod = 2'500'000;
+
+inline constexpr const char* kSimulator = "fleet-simulator";
+
+/// Tells what was done, and what the one who did it remarks.
+void Done(std::ostream& out, const std::string& what, const std::string& remark);
 
 /// Who commands, for people: "skein, ada".
 std::string OperatorName();

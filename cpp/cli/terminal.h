@@ -5,6 +5,8 @@
 
 namespace skein::cli {
 
+inline constexpr const char* kClearScreen = "\x1b[H\x1b[J";
+
 struct TerminalSize {
   std::size_t columns = 0;
   std::size_t rows = 0;

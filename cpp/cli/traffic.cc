@@ -107,6 +107,8 @@ std::string TypeOf(const ChannelTraffic& channel) {
              : fmt::format("unknown {:016x}", static_cast<std::uint64_t>(channel.fingerprint));
 }
 
+constexpr bus::Utime kLeastListening = bus::kSecond / 2;
+
 }  // namespace
 
 std::optional<std::int64_t> ChannelTraffic::gaps() const {
@@ -154,9 +156,9 @@ void Traffic::Hear(bus::Utime now, const std::string& channel, const void* data,
   if (!watch || !watch->Hear(data, size)) ++heard.undecodable;
 }
 
-Traffic::Rate Traffic::RateOf(const ChannelTraffic& channel, bus::Utime now) const {
+std::optional<Traffic::Rate> Traffic::RateOf(const ChannelTraffic& channel, bus::Utime now) const {
   const bus::Utime from = std::max(start_, now - kRateWindow);
-  if (now <= from) return {};
+  if (now - from < kLeastListening) return std::nullopt;
   Rate rate;
   for (const ChannelTraffic::Arrival& arrival : channel.arrivals) {
     if (arrival.utime < from) continue;
@@ -164,7 +166,7 @@ Traffic::Rate Traffic::RateOf(const ChannelTraffic& channel, bus::Utime now) con
     rate.bytes_s += static_cast<double>(arrival.bytes);
   }
   const double seconds = static_cast<double>(now - from) / bus::kSecond;
-  return {rate.messages_s / seconds, rate.bytes_s / seconds};
+  return Rate{rate.messages_s / seconds, rate.bytes_s / seconds};
 }
 
 std::string TrafficTable(const Traffic& traffic, bus::Utime now, std::size_t width) {
@@ -173,19 +175,19 @@ std::string TrafficTable(const Traffic& traffic, bus::Utime now, std::size_t wid
   Traffic::Rate sum;
   std::int64_t count = 0;
   for (const auto& [name, channel] : traffic.channels()) {
-    const Traffic::Rate rate = traffic.RateOf(channel, now);
-    sum.messages_s += rate.messages_s;
-    sum.bytes_s += rate.bytes_s;
+    const auto rate = traffic.RateOf(channel, now);
+    sum.messages_s += rate.value_or(Traffic::Rate()).messages_s;
+    sum.bytes_s += rate.value_or(Traffic::Rate()).bytes_s;
     count += channel.count;
     const auto jitter_s = channel.jitter_s();
     const auto gaps = channel.gaps();
-    table.push_back({Printable(name), Number(rate.messages_s), Number(rate.bytes_s / 1e3),
-                     gaps ? std::to_string(*gaps) : "-", std::to_string(channel.undecodable),
-                     channel.least_bytes == channel.most_bytes
-                         ? std::to_string(channel.most_bytes)
-                         : fmt::format("{}-{}", channel.least_bytes, channel.most_bytes),
-                     jitter_s ? Number(*jitter_s * 1e3) : "-", std::to_string(channel.count),
-                     TypeOf(channel)});
+    table.push_back(
+        {Printable(name), rate ? Number(rate->messages_s) : "-", rate ? Number(rate->bytes_s / 1e3) : "-",
+         gaps ? std::to_string(*gaps) : "-", std::to_string(channel.undecodable),
+         channel.least_bytes == channel.most_bytes
+             ? std::to_string(channel.most_bytes)
+             : fmt::format("{}-{}", channel.least_bytes, channel.most_bytes),
+         jitter_s ? Number(*jitter_s * 1e3) : "-", std::to_string(channel.count), TypeOf(channel)});
   }
   table.push_back(
       {"all", Number(sum.messages_s), Number(sum.bytes_s / 1e3), "", "", "", "", std::to_string(count), ""});
@@ -207,7 +209,7 @@ nlohmann::ordered_json TrafficJson(const Traffic& traffic, bus::Utime now) {
   using Json = nlohmann::ordered_json;
   Json channels = Json::array();
   for (const auto& [name, channel] : traffic.channels()) {
-    const Traffic::Rate rate = traffic.RateOf(channel, now);
+    const auto rate = traffic.RateOf(channel, now);
     const auto jitter_s = channel.jitter_s();
     const auto gaps = channel.gaps();
     channels.push_back(
@@ -215,8 +217,8 @@ nlohmann::ordered_json TrafficJson(const Traffic& traffic, bus::Utime now) {
          {"type", channel.type.empty() ? Json() : Json(channel.type)},
          {"fingerprint", fmt::format("{:016x}", static_cast<std::uint64_t>(channel.fingerprint))},
          {"count", channel.count},
-         {"rate_hz", rate.messages_s},
-         {"bytes_per_s", rate.bytes_s},
+         {"rate_hz", rate ? Json(rate->messages_s) : Json()},
+         {"bytes_per_s", rate ? Json(rate->bytes_s) : Json()},
          {"least_bytes", channel.least_bytes},
          {"mean_bytes", static_cast<double>(channel.bytes) / static_cast<double>(channel.count)},
          {"most_bytes", channel.most_bytes},

@@ -64,8 +64,9 @@ class Traffic {
     double messages_s = 0;
     double bytes_s = 0;
   };
-  /// Over the last kRateWindow, or since the start when that is shorter.
-  Rate RateOf(const ChannelTraffic& channel, bus::Utime now) const;
+  /// Over the last kRateWindow, or since the start when that is shorter; none in the first half second, in
+  /// which it would tell of nothing.
+  std::optional<Rate> RateOf(const ChannelTraffic& channel, bus::Utime now) const;
 
   const std::map<std::string, ChannelTraffic>& channels() const { return channels_; }
   bus::Utime start() const { return start_; }

@@ -27,26 +27,6 @@ std::string Escaped(std::string_view key) {
 
 std::string Quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
-std::string ReadAll(const std::filesystem::path& file) {
-  const std::string name = file.string();
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) throw ConfigError(name + ": there is no such file");
-  if (std::filesystem::is_directory(status)) throw ConfigError(name + ": is a folder, not a scenario file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw ConfigError(name + ": cannot be read: " + std::strerror(errno));
-  std::string text;
-  std::array<char, 65'536> block{};
-  do {
-    stream.read(block.data(), block.size());
-    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
-  } while (stream && text.size() <= kMaxFileBytes);
-  if (stream.bad()) throw ConfigError(name + ": cannot be read");
-  if (text.size() > kMaxFileBytes) throw ConfigError(name + ": is larger than 32 MiB");
-  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw ConfigError(name + ": is empty");
-  return text;
-}
-
 // nlohmann keeps the last of two equal keys in silence, which would make a slip of copy and paste fly.
 class DuplicateKeys {
  public:
@@ -120,6 +100,27 @@ std::size_t Distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
+std::string ReadTextFile(const std::filesystem::path& file, const std::string& kind) {
+  const std::string name = file.string();
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw ConfigError(name + ": there is no such file");
+  if (std::filesystem::is_directory(status)) throw ConfigError(name + ": is a folder, not " + kind);
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw ConfigError(name + ": cannot be read: " + std::strerror(errno));
+  std::string text;
+  std::array<char, 65'536> block{};
+  do {
+    stream.read(block.data(), block.size());
+    text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream && text.size() <= kMaxFileBytes);
+  if (stream.bad()) throw ConfigError(name + ": cannot be read");
+  if (text.size() > kMaxFileBytes) throw ConfigError(name + ": is larger than 32 MiB");
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) throw ConfigError(name + ": is empty");
+  if (text.find('\0') != std::string::npos) throw ConfigError(name + ": is no text file");
+  return text;
+}
+
 std::string Shown(double number) {
   std::ostringstream text;
   text.precision(10);
@@ -133,7 +134,7 @@ struct Value::Document {
 };
 
 Value Value::FromFile(const std::filesystem::path& file) {
-  const std::string text = ReadAll(file);
+  const std::string text = ReadTextFile(file, "a scenario file");
   auto document = std::make_shared<Document>();
   document->file = file.string();
   try {

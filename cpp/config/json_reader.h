@@ -23,6 +23,11 @@ struct Range {
 /// A number as messages tell it.
 std::string Shown(double number);
 
+/// The text of a file of at most 32 MiB. Throws ConfigError when there is none, it is a folder, empty or no
+/// text.
+/// @param kind what the file is to be, for who names a folder: "a scenario file".
+std::string ReadTextFile(const std::filesystem::path& file, const std::string& kind);
+
 /// A JSON value that knows its file and its JSON pointer, so that whatever is wrong with it is refused with
 /// both. All readers throw ConfigError when the value is of another type or out of range.
 class Value {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -163,6 +164,19 @@ std::optional<CampaignRow> ToRow(const std::string& line) {
   return row;
 }
 
+/// No row is longer, whatever the file is.
+constexpr std::size_t kLongestLine = 1 << 16;
+
+/// False at the end. Throws ConfigError for a line that is no row of anybody.
+bool ReadLine(std::istream& stream, std::string& line, const std::string& place) {
+  line.resize(kLongestLine);
+  stream.getline(line.data(), static_cast<std::streamsize>(line.size()));
+  line.resize(std::strlen(line.c_str()));
+  if (stream.fail() && line.size() + 1 == kLongestLine)
+    throw config::ConfigError(place + "the line is too long");
+  return !stream.fail();
+}
+
 class Merger {
  public:
   void Add(const std::filesystem::path& file) {
@@ -172,12 +186,13 @@ class Merger {
       throw config::ConfigError(file.string() + ": cannot be read");
     }
     std::string line;
-    std::getline(stream, line);
+    ReadLine(stream, line, file.string() + ": ");
     if (line != CampaignHeader()) {
       throw config::ConfigError(file.string() + ": is no CSV of flight-experiment --runs of this version");
     }
-    for (int number = 2; std::getline(stream, line); ++number) {
+    for (int number = 2;; ++number) {
       const std::string place = fmt::format("{}:{}: ", file.string(), number);
+      if (!ReadLine(stream, line, place)) return;
       if (stream.eof()) {
         warnings_.push_back(place + "the last row is not whole and was left out");
         return;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "bus/node_main.h"
+#include "bus/number_checks.h"
 #include "config/variation.h"
 #include "experiment/campaign_command.h"
 #include "experiment/csv_writer.h"
@@ -124,9 +125,10 @@ void Describe(CLI::App& app, Arguments& arguments) {
   app.add_option("--plot", arguments.plot,
                  "SVG figure of errors, speed, altitude and track; all runs in one");
   app.add_option("--duration", arguments.duration_s, "Seconds to fly, instead of the scenario's own")
-      ->check(CLI::Range(0.05, 1e6))
+      ->check(bus::Between(0.05, 1e6))
       ->type_name("S");
   app.add_option("--seed", arguments.seed, "Of lossy and jittered links, and of --vary and --runs")
+      ->check(bus::NotNegative())
       ->capture_default_str()
       ->type_name("N");
   auto* vary = app.add_flag("--vary", arguments.vary,
@@ -139,7 +141,7 @@ void Describe(CLI::App& app, Arguments& arguments) {
           ->type_name("N")
           ->excludes(vary);
   app.add_option("--jobs", arguments.jobs, "Runs of a campaign at once")
-      ->check(CLI::Range(1, 1024))
+      ->check(bus::Between(1, 1024))
       ->capture_default_str()
       ->type_name("N")
       ->needs(runs);

@@ -12,6 +12,7 @@ namespace {
 
 // Whoever can send HEARTBEAT can invent names.
 constexpr std::size_t kMostNodes = 100;
+constexpr const char* kWallClock = "wall-clock";
 
 }  // namespace
 
@@ -19,6 +20,19 @@ ClockWatch::ClockWatch(bus::Bus& bus, AlarmDesk& alarms) : alarms_(alarms) {
   bus.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [this, &bus](const heartbeat_t& heartbeat) {
     Hear(heartbeat.heartbeat_node, heartbeat.utime - bus.executor().Now());
   });
+  bus.executor().Every(bus::kSecond, [this, &bus] { LookAtWallClock(bus.executor().WallAhead()); });
+}
+
+void ClockWatch::LookAtWallClock(bus::Utime ahead) {
+  const bool off = std::abs(ahead) > (wall_clock_alarm_ ? kMost / 2 : kMost);
+  if (off == wall_clock_alarm_) return;
+  wall_clock_alarm_ = off;
+  if (!off) return alarms_.End(kWallClock);
+  alarms_.Raise(
+      {kWallClock, AlertLevel::kCaution,
+       fmt::format("the clock of the monitor's host was set {} by {:.1f} s: Skein goes on in its own time "
+                   "until all of it there is ended and started again",
+                   ahead > 0 ? "forward" : "back", bus::ToSeconds(std::abs(ahead)))});
 }
 
 void ClockWatch::Hear(const std::string& node, bus::Utime offset) {

@@ -10,7 +10,8 @@ namespace skein::monitor {
 
 /// Raises an alarm while the clock of another node (HEARTBEAT) is off from ours: events, alarms and
 /// recordings of several hosts are then hard to read together. Links are judged by times of one clock alone,
-/// so nothing else comes of it.
+/// so nothing else comes of it. And one while the wall clock of this host is not what Skein goes by, because
+/// it was set meanwhile.
 class ClockWatch {
  public:
   ClockWatch(bus::Bus& bus, AlarmDesk& alarms);
@@ -26,9 +27,11 @@ class ClockWatch {
     bool alarm = false;
   };
   void Hear(const std::string& node, bus::Utime offset);
+  void LookAtWallClock(bus::Utime ahead);
 
   AlarmDesk& alarms_;
   std::map<std::string, Offset> nodes_;
+  bool wall_clock_alarm_ = false;
 };
 
 }  // namespace skein::monitor

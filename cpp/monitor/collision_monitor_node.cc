@@ -144,7 +144,12 @@ void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_
 }
 
 void CollisionMonitorNode::HearState(const fleet_state_t& state) {
+  // Another flight: everybody may be elsewhere.
+  if (state.session_id != fleet_session_id_ || state.tick < fleet_tick_) {
+    for (auto& [id, uav] : uavs_) uav.ForgetPlace();
+  }
   fleet_session_id_ = state.session_id;
+  fleet_tick_ = state.tick;
   const Utime now = bus_.executor().Now();
   link_alarms_.HearFleet(now);
   std::vector<Notice> notices;

@@ -83,6 +83,7 @@ class CollisionMonitorNode {
   bus::Utime start_utime_ = 0;         ///< of the flight; 0: no roster yet
   bus::Utime levels_from_;             ///< by then every FORMATION has been heard
   std::int64_t fleet_session_id_ = 0;  ///< of FLEET_STATE
+  std::int64_t fleet_tick_ = 0;
   std::int64_t sweep_ = 0;
   std::int64_t link_sequence_ = 0;
   bus::Utime links_sent_ = 0;

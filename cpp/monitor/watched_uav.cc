@@ -2,6 +2,8 @@
 
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
+#include <cmath>
 #include <skein/event_t.hpp>
 #include <utility>
 
@@ -12,6 +14,10 @@ namespace {
 constexpr bus::Utime kStillTalking = bus::kSecond;
 // An uplink that is lost, but was obeyed this recently, is about to return.
 constexpr bus::Utime kObeysAgain = bus::kSecond;
+// A navigation filter that corrects itself, and wind, are no leap.
+constexpr double kLeap_m = 100;
+constexpr double kFasterThanItSays = 2;
+constexpr bus::Utime kLeapAgain = 10 * bus::kSecond;
 
 }  // namespace
 
@@ -25,9 +31,28 @@ void WatchedUav::Enrol(const std::string& callsign) {
 
 std::optional<Notice> WatchedUav::Hear(bus::Utime now, const Telemetry& telemetry) {
   heard_ = now;
-  if (watch_.Hear(now, telemetry) != LinkWatch::Heard::kClockJumped) return std::nullopt;
+  std::optional<Notice> leap = Leap(now, telemetry);
+  if (watch_.Hear(now, telemetry) != LinkWatch::Heard::kClockJumped) return leap;
   return Tell(event_t::ADVISORY, "time_jumped",
               fmt::format("the clock of {} has jumped; it is taken again", callsign_));
+}
+
+std::optional<Notice> WatchedUav::Leap(bus::Utime now, const Telemetry& telemetry) {
+  const std::optional<Telemetry> before = std::exchange(last_, telemetry);
+  if (!before || telemetry.utime < before->utime) return std::nullopt;
+  const VehicleState& from = before->state;
+  const VehicleState& to = telemetry.state;
+  const double leap_m = std::hypot(to.east_m - from.east_m, to.north_m - from.north_m, to.up_m - from.up_m);
+  const double dt_s = bus::ToSeconds(telemetry.utime - before->utime);
+  if (leap_m <= kLeap_m + kFasterThanItSays * std::max(from.speed_m_s, to.speed_m_s) * dt_s)
+    return std::nullopt;
+  if (leap_told_ != 0 && now - leap_told_ < kLeapAgain) return std::nullopt;
+  leap_told_ = now;
+  return Tell(event_t::CAUTION, "position_leapt",
+              fmt::format("{} is {:.0f} m from where it was {:.2f} s before: its navigation may be wrong, or "
+                          "somebody else sends "
+                          "as {}",
+                          callsign_, leap_m, dt_s, callsign_));
 }
 
 Notice WatchedUav::Tell(std::int8_t severity, std::string code, std::string text) const {

@@ -32,8 +32,10 @@ class WatchedUav {
   bool in_roster() const { return in_roster_; }
   void Enrol(const std::string& callsign);
 
-  /// Returns a notice when its clock has jumped.
+  /// Returns a notice when its clock has jumped, or when it is where it cannot have flown to.
   std::optional<Notice> Hear(bus::Utime now, const Telemetry& telemetry);
+  /// It may be anywhere when it is heard next.
+  void ForgetPlace() { last_.reset(); }
   void HearCommand(bus::Utime now, std::int64_t session_id) { watch_.Command(now, session_id); }
 
   struct Judgement {
@@ -57,6 +59,7 @@ class WatchedUav {
 
  private:
   Notice Tell(std::int8_t severity, std::string code, std::string text) const;
+  std::optional<Notice> Leap(bus::Utime now, const Telemetry& telemetry);
   std::string DownlinkFault(bus::Utime now) const;
   std::string UplinkFault() const;
 
@@ -65,6 +68,8 @@ class WatchedUav {
   bool in_roster_;
   LinkWatch watch_;
   std::optional<bus::Utime> heard_;  ///< anything, fresh or not
+  std::optional<Telemetry> last_;    ///< of what was heard
+  bus::Utime leap_told_ = 0;
 
   // As of the last judgement.
   LinkState downlink_ = LinkState::kUnknown;

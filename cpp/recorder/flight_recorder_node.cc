@@ -171,6 +171,12 @@ void FlightRecorderNode::TellEnd(const std::string& why) {
 }
 
 void FlightRecorderNode::StartLogger() {
+  std::error_code error;
+  fs::create_directories(options_.folder, error);
+  if (error && error != std::errc::no_space_on_device) {
+    return Interrupt(kInterrupted, "there is no folder " + options_.folder.string() +
+                                       ", and it cannot be made: " + error.message());
+  }
   MakeRoomNow();
   // At the start, anything above what is to be kept free will do.
   if (!HasRoom(interrupted_at_ != 0 ? RoomToBegin(options_.folder) : 0)) {

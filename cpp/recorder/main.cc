@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bus/node_main.h"
+#include "bus/number_checks.h"
 #include "config/scenario.h"
 #include "recorder/flight_recorder_node.h"
 
@@ -16,16 +17,6 @@ using namespace skein;  // NOLINT: the main file of a program
 std::string StemOf(const std::string& title, const std::string& own_title, const std::string& own_stem) {
   if (!own_title.empty() && title == own_title) return own_stem;
   return recorder::FileStem(config::BareNameOf(title).value_or(title));
-}
-
-/// CLI::Range lets "nan" through.
-CLI::Validator Between(double least, double most) {
-  const auto check = [=](const std::string& text) -> std::string {
-    double number = 0;
-    if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most) return "";
-    return fmt::format("must be {:g} .. {:g}, is {}", least, most, text);
-  };
-  return CLI::Validator(check, fmt::format("FLOAT in {:g} .. {:g}", least, most));
 }
 
 // More than any disk holds; in bytes still well below 2^63.
@@ -47,17 +38,19 @@ int main(int argc, char** argv) {
       "Scenario that will fly, for the recording's name until a fleet is heard: a file, or the name of one "
       "that ships");
   app.add_option("--split-mb", split_mb, "A file that is so large is followed by another one [MB]")
-      ->check(Between(0.1, 1e6))
+      ->check(bus::Between(0.1, 1e6))
       ->capture_default_str();
   app.add_option(
          "--quota-gb", quota_gb,
          "All recordings of the folder together; beyond it the oldest are removed, if flight-recorder wrote "
          "them [GB]")
-      ->check(Between(0, kMostGb))
+      ->check(bus::Between(0, kMostGb))
       ->capture_default_str();
   app.add_option("--keep-free-gb", keep_free_gb, "So much of the disk stays free, whatever happens [GB]")
-      ->check(Between(0, kMostGb))
+      ->check(bus::Between(0, kMostGb))
       ->capture_default_str();
+  // Two would record everything twice, and contradict one another about whether it is recorded.
+  node.OnlyOne([] {});
   return node.Run(argc, argv, [&](bus::Bus& bus, bus::LiveExecutor& executor) {
     recorder::FlightRecorderOptions options;
     options.folder = folder;

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "recording/archive.h"
 
@@ -94,6 +93,15 @@ void Describe(Archive& archive, Stamp& stamp) {
 
 namespace {
 
+// That of a recording of 2 GB takes a hundredth of it.
+constexpr std::uintmax_t kLargestIndexBytes = 256 << 20;
+
+std::string EncodedStamp(Stamp stamp) {
+  ArchiveWriter archive;
+  archive(stamp);
+  return std::string(archive.bytes());
+}
+
 std::optional<Stamp> StampOf(const std::filesystem::path& log) {
   struct stat status {};
   if (stat(log.c_str(), &status) != 0) return std::nullopt;
@@ -133,13 +141,20 @@ std::optional<LogIndex> LoadIndex(const std::filesystem::path& log) {
   std::ifstream stream(IndexFileOf(log), std::ios::binary);
   if (!stamp || !stream) return std::nullopt;
   try {
-    std::stringstream content;
-    content << stream.rdbuf();
-    const std::string bytes = std::move(content).str();
-    ArchiveReader archive(bytes);
+    // Not the whole of what may be anybody's file before it is known to be ours.
     Stamp saved;
+    std::string bytes = EncodedStamp(saved);
+    if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) return std::nullopt;
+    ArchiveReader beginning(bytes);
+    beginning(saved);
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(IndexFileOf(log), error);
+    if (saved != *stamp || error || size > kLargestIndexBytes) return std::nullopt;
+    bytes.resize(size);
+    stream.seekg(0);
+    stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    ArchiveReader archive(bytes);
     archive(saved);
-    if (saved != *stamp) return std::nullopt;
     LogIndex index;
     archive(index);
     if (!archive.at_end() || !Sane(index)) return std::nullopt;

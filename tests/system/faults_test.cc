@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <set>
 #include <skein/alarm_list_t.hpp>
 #include <skein/event_t.hpp>
 #include <skein/fleet_state_t.hpp>
@@ -19,84 +22,14 @@
 
 #include "bus/channels.h"
 #include "system/bus_ear.h"
+#include "system/faulty_flight.h"
 #include "system/process.h"
+#include "system/small_disk.h"
 
 namespace skein::testing {
 namespace {
 
 using namespace std::chrono_literals;
-
-const std::vector<std::string> kNodes{"fleet-simulator", "formation-controller", "collision-monitor"};
-
-/// The nodes of a flight, started and killed one by one, each with a state file.
-class FaultsTest : public ::testing::Test {
- protected:
-  ~FaultsTest() override {
-    nodes_.clear();
-    std::filesystem::remove_all(folder_);
-  }
-
-  std::unique_ptr<Process> Start(const std::string& node) const {
-    return std::make_unique<Process>(std::vector<std::string>{
-        Program(node), "--lcm-url", url_, "--scenario", "triangle", "--state-file", folder_ + "/" + node});
-  }
-  void StartAll() {
-    for (const std::string& node : kNodes) nodes_[node] = Start(node);
-    for (const std::string& node : kNodes) ASSERT_TRUE(HearsHeartbeat(url_, node)) << node;
-    ASSERT_TRUE(Hears<formation_status_t>(
-        url_, bus::channel::kFormationStatus, [](const auto&) { return true; }, 10s));
-  }
-  /// Killed outright, and started again with the same state file.
-  void Restart(const std::string& node) {
-    nodes_[node]->Signal(SIGKILL);
-    ASSERT_TRUE(nodes_[node]->WaitForEnd(5s));
-    nodes_[node] = Start(node);
-  }
-  void Skein(std::vector<std::string> words) const {
-    words.insert(words.begin(), {Program("skein"), "--lcm-url", url_});
-    const Finished done = RunToEnd(words);
-    ASSERT_EQ(done.exit_code, 0) << done.output;
-  }
-  /// The next complete FLEET_STATE of this small fleet.
-  fleet_state_t NextState() const {
-    fleet_state_t next{};
-    EXPECT_TRUE(Hears<fleet_state_t>(
-        url_, bus::channel::kFleetState,
-        [&](const fleet_state_t& state) {
-          next = state;
-          return true;
-        },
-        5s));
-    return next;
-  }
-  bool HearsAlarm(const std::string& condition, const std::function<bool(const alarm_t&)>& is_it,
-                  Seconds timeout) const {
-    return Hears<alarm_list_t>(
-        url_, bus::channel::kAlarms,
-        [&](const alarm_list_t& list) {
-          return std::any_of(list.alarms.begin(), list.alarms.end(), [&](const alarm_t& alarm) {
-            return alarm.condition == condition && is_it(alarm);
-          });
-        },
-        timeout);
-  }
-  /// Whether all slots of the formation are held within so much, at some moment within `timeout`.
-  bool HoldsSlots(double within_m, Seconds timeout) const {
-    return Hears<formation_status_t>(
-        url_, bus::channel::kFormationStatus,
-        [&](const formation_status_t& status) {
-          return !status.slots.empty() &&
-                 std::all_of(status.slots.begin(), status.slots.end(), [&](const slot_status_t& slot) {
-                   return std::hypot(slot.forward_error_m, slot.left_error_m, slot.up_error_m) <= within_m;
-                 });
-        },
-        timeout);
-  }
-
-  std::string url_ = FreshLcmUrl();
-  std::string folder_ = FreshFolder("skein-faults");
-  std::map<std::string, std::unique_ptr<Process>> nodes_;
-};
 
 class OnlyOneTest : public FaultsTest, public ::testing::WithParamInterface<std::string> {};
 
@@ -233,6 +166,61 @@ TEST_F(FaultsTest, WhenTheSimulatorIsGoneThatIsToldWithinFiveSeconds) {
   // Nobody climbs for it: it is one alarm about the fleet, and none about a UAV's link.
   EXPECT_FALSE(HearsAlarm(
       "link:1", [](const alarm_t&) { return true; }, 4s));
+}
+
+TEST_F(FaultsTest, TwoFleetsOnOneNetworkKeepApartByTheirPorts) {
+  StartAll();
+  const auto first = std::move(nodes_);
+  const std::string first_url = url_;
+  folder_ = FreshFolder("skein-faults");
+  url_ = FreshLcmUrl();
+  StartAll();
+  Skein({"formation", "hold", "1"});
+  EXPECT_FALSE(Hears<formation_status_t>(
+      first_url, bus::channel::kFormationStatus,
+      [](const formation_status_t& status) { return status.mode == formation_status_t::MODE_HOLDING; }, 2s))
+      << "the other fleet holds, too";
+  for (const std::string& url : {first_url, url_}) {
+    std::map<std::string, std::set<std::int64_t>> sessions;
+    Hears<heartbeat_t>(
+        url, bus::channel::kHeartbeat,
+        [&](const heartbeat_t& heartbeat) {
+          sessions[heartbeat.heartbeat_node].insert(heartbeat.session_id);
+          return false;
+        },
+        3s);
+    EXPECT_EQ(sessions.size(), kNodes.size()) << "somebody stands by, or is not heard";
+    for (const auto& [node, ids] : sessions) EXPECT_EQ(ids.size(), 1U) << node;
+  }
+}
+
+TEST_F(FaultsTest, AFullDiskEndsNoFlightAndIsToldOnce) {
+  const SmallDisk disk(folder_, "64k");
+  if (disk.refused() != 0) GTEST_SKIP() << "a small disk cannot be mounted: " << strerror(disk.refused());
+  const std::string ballast = folder_ + "/ballast";
+  std::ofstream(ballast) << std::string(100'000, '.');
+  scenario_ = "turn";  // in formation from the start
+  StartAll();
+  for (const char* node : {"fleet-simulator", "formation-controller"}) {
+    EXPECT_TRUE(nodes_[node]->WaitForOutput("state_not_saved", 10s)) << nodes_[node]->output();
+  }
+  EXPECT_TRUE(HoldsSlots(20, 10s));
+  Skein({"formation", "hold", "1"});
+  Skein({"formation", "resume", "1"});
+  for (const auto& [node, process] : nodes_) {
+    const std::string output = process->output();
+    const std::size_t first = output.find("state_not_saved");
+    EXPECT_EQ(output.find("state_not_saved", first + 1), std::string::npos) << node << ": " << output;
+  }
+  // With room again, it is kept again.
+  std::filesystem::remove(ballast);
+  const std::string state = folder_ + "/formation-controller";
+  Skein({"formation", "hold", "1"});
+  EXPECT_TRUE(std::filesystem::exists(state)) << "a hold that was promised is not on the disk";
+  Restart("formation-controller");
+  EXPECT_TRUE(Hears<formation_status_t>(
+      url_, bus::channel::kFormationStatus,
+      [](const formation_status_t& status) { return status.mode == formation_status_t::MODE_HOLDING; }, 10s));
 }
 
 }  // namespace

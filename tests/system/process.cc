@@ -122,6 +122,7 @@ void Process::ReadUntil(const std::function<bool()>& done, Seconds timeout) {
 }
 
 std::optional<ExitCode> Process::WaitForEnd(Seconds timeout) {
+  Reap();  // it may have ended already, and there may be no time to wait
   ReadUntil([] { return false; }, timeout);
   return exit_code_;
 }

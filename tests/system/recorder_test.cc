@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/mount.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "bus/channels.h"
 #include "system/bus_ear.h"
 #include "system/process.h"
+#include "system/small_disk.h"
 
 namespace skein::testing {
 namespace {
@@ -90,7 +90,7 @@ class RecorderTest : public ::testing::Test {
 
   /// Waits for a RECORDING of this state of which `is_it` is true.
   bool HearsStatus(std::int8_t state, const std::function<bool(const recording_status_t&)>& is_it,
-                   Seconds timeout = Seconds(10)) {
+                   Seconds timeout = Seconds(30)) {
     return Hears<recording_status_t>(
         url_, bus::channel::kRecording,
         [&](const recording_status_t& status) {
@@ -99,7 +99,7 @@ class RecorderTest : public ::testing::Test {
         },
         timeout);
   }
-  bool IsRecording(int parts = 1, Seconds timeout = Seconds(10)) {
+  bool IsRecording(int parts = 1, Seconds timeout = Seconds(30)) {
     return HearsStatus(
         recording_status_t::RECORDING, [&](const auto& status) { return status.parts >= parts; }, timeout);
   }
@@ -139,7 +139,7 @@ TEST_F(RecorderTest, RecordsFromItsStartToItsEndAndSaysSoInTheLog) {
   Process recorder(Command());
   ASSERT_TRUE(IsRecording()) << recorder.output();
   recorder.Signal(SIGTERM);
-  EXPECT_EQ(recorder.WaitForEnd(5s), 0) << recorder.output();
+  EXPECT_EQ(recorder.WaitForEnd(20s), 0) << recorder.output();
   EXPECT_EQ(Logger(), 0);
   const LogEvents log = ReadAll();
   EXPECT_TRUE(Holds(log, "recording_started", status_.recording));
@@ -160,7 +160,7 @@ TEST_F(RecorderTest, IsNamedAfterTheScenarioThatItHearsAndBeginsAnotherWithAnoth
   ASSERT_EQ(RunToEnd({Program("skein"), "--lcm-url", url_, "scenario", "load", "crossing"}).exit_code, 0);
   ASSERT_TRUE(HearsStatus(recording_status_t::RECORDING, named("crossing-"))) << recorder.output();
   recorder.Signal(SIGTERM);
-  EXPECT_EQ(recorder.WaitForEnd(5s), 0);
+  EXPECT_EQ(recorder.WaitForEnd(20s), 0);
   EXPECT_TRUE(fs::exists(folder_ + "/" + triangle));
   EXPECT_EQ(std::ranges::count_if(fs::directory_iterator(folder_), [](const auto&) { return true; }), 4)
       << "two recordings and their cards, and nothing of the first name";
@@ -173,7 +173,7 @@ TEST_F(RecorderTest, LosesNothingFromOnePartToTheNext) {
   EXPECT_TRUE(IsRecording(6, 30s)) << recorder.output();
   const std::int64_t last = stream.Last();
   recorder.Signal(SIGTERM);
-  EXPECT_EQ(recorder.WaitForEnd(5s), 0) << recorder.output();
+  EXPECT_EQ(recorder.WaitForEnd(20s), 0) << recorder.output();
   const LogEvents log = ReadAll();
   EXPECT_GE(Parts().size(), 6U);
   std::int64_t expected = 0;
@@ -187,7 +187,7 @@ TEST_F(RecorderTest, ReplacesAKilledLoggerWithinTwoSecondsAndWhatWasWrittenRepla
   kill(Logger(), SIGKILL);
   EXPECT_TRUE(IsRecording(2, 2s)) << recorder.output();
   recorder.Signal(SIGTERM);
-  EXPECT_EQ(recorder.WaitForEnd(5s), 0) << recorder.output();
+  EXPECT_EQ(recorder.WaitForEnd(20s), 0) << recorder.output();
   ASSERT_EQ(Parts().size(), 2U);
   LogEvents first;
   Read(Parts()[0], first);
@@ -284,27 +284,8 @@ TEST_F(RecorderTest, KeepsRoomOnTheDiskAndSaysWhyItDoesNotRecord) {
   EXPECT_NE(status.output.find("not recording: disk full"), std::string::npos) << status.output;
 }
 
-/// A disk of a few megabytes.
-class SmallDisk {
- public:
-  explicit SmallDisk(const std::string& folder) : folder_(folder) {
-    refused_ = mount("tmpfs", folder.c_str(), "tmpfs", 0, "size=4m") == 0 ? 0 : errno;
-  }
-  ~SmallDisk() {
-    if (refused_ == 0) umount2(folder_.c_str(), MNT_DETACH);
-  }
-  SmallDisk(const SmallDisk&) = delete;
-  SmallDisk& operator=(const SmallDisk&) = delete;
-
-  int refused() const { return refused_; }  ///< errno
-
- private:
-  std::string folder_;
-  int refused_;
-};
-
 TEST_F(RecorderTest, OutlivesAFullDiskAndGoesOnWhenThereIsRoomAgain) {
-  const SmallDisk disk(folder_);
+  const SmallDisk disk(folder_, "4m");
   if (disk.refused() != 0) GTEST_SKIP() << "a small disk cannot be mounted: " << strerror(disk.refused());
   const std::string ballast = folder_ + "/ballast";
   std::ofstream(ballast) << std::string(2'500'000, '.');
@@ -325,8 +306,30 @@ TEST_F(RecorderTest, OutlivesAFullDiskAndGoesOnWhenThereIsRoomAgain) {
   fs::remove(ballast);
   ASSERT_TRUE(IsRecording(2)) << recorder.output();
   recorder.Signal(SIGTERM);
-  EXPECT_EQ(recorder.WaitForEnd(5s), 0) << recorder.output();
+  EXPECT_EQ(recorder.WaitForEnd(20s), 0) << recorder.output();
   EXPECT_TRUE(Holds(ReadAll(), "recording_resumed"));
+}
+
+TEST_F(RecorderTest, ASecondOneStandsByAndTakesOver) {
+  Process first(Command());
+  ASSERT_TRUE(IsRecording()) << first.output();
+  const std::string recording = status_.recording;
+  Process second(Command());
+  ASSERT_TRUE(second.WaitForOutput("stands by", 5s)) << second.output();
+  first.Signal(SIGKILL);
+  ASSERT_TRUE(second.WaitForOutput("takes over", 5s)) << second.output();
+  ASSERT_TRUE(HearsStatus(recording_status_t::RECORDING, [&](const recording_status_t& status) {
+    return status.recording != recording;
+  })) << second.output();
+}
+
+TEST_F(RecorderTest, SaysWhenThereCanBeNoFolder) {
+  folder_ = "/proc/skein-recordings";
+  Process recorder(Command());
+  ASSERT_TRUE(HearsStatus(recording_status_t::INTERRUPTED, [](const recording_status_t& status) {
+    return status.reason.find("there is no folder /proc/skein-recordings, and it cannot be made") !=
+           std::string::npos;
+  })) << recorder.output();
 }
 
 TEST_F(RecorderTest, RemovesItsOldestRecordingsBeyondTheQuotaAndNothingElse) {
@@ -336,7 +339,7 @@ TEST_F(RecorderTest, RemovesItsOldestRecordingsBeyondTheQuotaAndNothingElse) {
     ASSERT_TRUE(IsRecording()) << recorder.output();
     if (i == 0) oldest = status_.recording;
     recorder.Signal(SIGTERM);
-    ASSERT_EQ(recorder.WaitForEnd(5s), 0) << recorder.output();
+    ASSERT_EQ(recorder.WaitForEnd(20s), 0) << recorder.output();
   }
   const fs::path foreign = folder_ + "/flight-20200101-000000.lcm";
   fs::copy(folder_ + "/" + oldest, foreign);

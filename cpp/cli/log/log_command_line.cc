@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "bus/number_checks.h"
 #include "config/scenario.h"
 
 namespace skein::cli {
@@ -12,10 +13,10 @@ constexpr const char* kFileHelp = "The recording; further parts of it (FILE.01, 
 
 void AddWindow(CLI::App* command, LogWindow& window) {
   command->add_option("--from", window.from_s, "From so many seconds after the recording's start on")
-      ->check(CLI::NonNegativeNumber)
+      ->check(bus::NotNegative())
       ->type_name("S");
   command->add_option("--to", window.to_s, "Up to so many seconds after its start")
-      ->check(CLI::NonNegativeNumber)
+      ->check(bus::NotNegative())
       ->type_name("S");
 }
 
@@ -36,7 +37,7 @@ void AddOutput(CLI::App* command, OutputOptions& output, bool is_required = fals
 
 void AddFlight(CLI::App* command, int& flight) {
   command->add_option("--flight", flight, "Which one, when the scenario was started anew meanwhile")
-      ->check(CLI::PositiveNumber)
+      ->check(bus::Positive())
       ->capture_default_str()
       ->type_name("N");
 }
@@ -88,7 +89,12 @@ void LogCommandLine::AddEvents(CLI::App& log) {
   const std::map<std::string, int> severities = {
       {"info", 0}, {"advisory", 1}, {"caution", 2}, {"warning", 3}};
   command->add_option("--least", events_.least_severity, "Only from this severity on")
-      ->transform(CLI::CheckedTransformer(severities, CLI::ignore_case))
+      ->transform(CLI::Transformer(severities, CLI::ignore_case))
+      ->check([](const std::string& text) {
+        return text.size() == 1 && text[0] >= '0' && text[0] <= '3'
+                   ? ""
+                   : "must be info, advisory, caution or warning, is " + text;
+      })
       ->type_name("info|advisory|caution|warning");
   AddWindow(command, events_.window);
   command->add_flag("--json", events_.json, "As JSON");
@@ -116,7 +122,7 @@ void LogCommandLine::AddTracks(CLI::App& log) {
     command
         ->add_option("--tolerance-m", tracks_.tolerance_m,
                      "Leave out positions that an even flight between the others passes so closely; 0: none")
-        ->check(CLI::Range(0.0, 1e6))
+        ->check(bus::Between(0.0, 1e6))
         ->capture_default_str()
         ->type_name("M");
     AddWindow(command, tracks_.window);
@@ -150,7 +156,7 @@ void LogCommandLine::AddDiff(CLI::App& log) {
       ->required()
       ->type_name("FILE");
   command->add_option("--tolerance-m", diff_.tolerance_m, "How far apart a UAV may be")
-      ->check(CLI::Range(0.0, 1e9))
+      ->check(bus::Between(0.0, 1e9))
       ->capture_default_str()
       ->type_name("M");
   AddFlight(command, diff_.flight);

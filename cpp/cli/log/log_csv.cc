@@ -12,8 +12,6 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::size_t kMostChannels = 10'000;
-
 void WriteRow(std::ostream& stream, const std::string& first, const std::vector<std::string>& cells) {
   stream << first;
   for (const std::string& cell : cells) stream << ',' << CsvCell(cell);
@@ -38,7 +36,7 @@ void WriteRow(std::ostream& stream, const std::string& first, const std::vector<
 
 void WriteLogCsv(const LogCsvOptions& options, std::ostream& out) {
   LogSource source(options.file);
-  Output output(options.output, out);
+  Output output(options.output, out, source.parts());
   std::ostream& stream = output.stream();
   std::string_view type;
   std::set<std::string> channels;

@@ -34,7 +34,7 @@ struct Kept {
 
 void CutLog(const LogCutOptions& options, std::ostream& out) {
   LogSource source(options.file);
-  Output output(options.output, out);
+  Output output(options.output, out, source.parts());
   recording::LogOutput log(output.stream());
   std::deque<Kept> before;
   std::int64_t messages = 0;

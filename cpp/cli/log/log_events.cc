@@ -13,7 +13,7 @@
 namespace skein::cli {
 namespace {
 
-constexpr std::array<const char*, 4> kSeverities = {"info", "advisory", "caution", "WARNING"};
+constexpr std::array<const char*, 4> kSeverityWords = {"info", "advisory", "caution", "WARNING"};
 
 std::string Json(const event_t& event, double t_s) {
   const nlohmann::ordered_json json = {{"t_s", t_s},
@@ -42,7 +42,7 @@ void ShowLogEvents(const LogEventsOptions& options, std::ostream& out) {
     } else {
       if (is_first) out << fmt::format("{:>9}  {:<8}  {:<22}  text\n", "t, s", "severity", "code");
       out << fmt::format("{:9.2f}  {:<8}  {:<22}  {}\n", now_s,
-                         kSeverities.at(static_cast<std::size_t>(event.severity)), event.code, event.text);
+                         kSeverityWords.at(static_cast<std::size_t>(event.severity)), event.code, event.text);
     }
     is_first = false;
   });

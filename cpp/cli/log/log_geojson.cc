@@ -100,7 +100,7 @@ void WriteEvent(const PlacedEvent& placed, FeatureWriter& features) {
 
 void WriteLogGeoJson(const LogTracksOptions& options, std::ostream& out) {
   LogSource source(options.file);
-  Output output(options.output, out);
+  Output output(options.output, out, source.parts());
   const FlightTracks tracks = ReadTracks(source, options);
   FeatureWriter features(output.stream(), source.name());
   for (const auto& [id, track] : tracks.vehicles) {

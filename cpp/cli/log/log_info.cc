@@ -23,8 +23,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<const char*, 4> kSeverities = {"info", "advisory", "caution", "warning"};
-constexpr std::size_t kMostChannels = 10'000;
 constexpr std::size_t kMostListed = 1'000;
 constexpr std::size_t kMostShown = 20;
 constexpr const char* kMore = "  and more, which --json lists\n";

@@ -16,7 +16,6 @@ namespace {
 // Okabe and Ito's colours, as in the plots; KML has them as alpha, blue, green, red.
 constexpr std::array<const char*, 7> kColours = {"ffb27200", "ff009fe6", "ff739e00", "ff005ed5",
                                                  "ffa779cc", "ffe9b456", "ffffffff"};
-constexpr std::array<const char*, 4> kSeverities = {"info", "advisory", "caution", "warning"};
 constexpr const char* kAbsolute = "<altitudeMode>absolute</altitudeMode>";
 
 std::string Coordinates(const Eigen::Vector3d& local, const config::Origin& origin, char separator) {
@@ -86,7 +85,7 @@ void WriteEvent(const PlacedEvent& placed, std::ostream& out) {
 
 void WriteLogKml(const LogTracksOptions& options, std::ostream& out) {
   LogSource source(options.file);
-  Output output(options.output, out);
+  Output output(options.output, out, source.parts());
   const FlightTracks tracks = ReadTracks(source, options);
   std::ostream& stream = output.stream();
   stream << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

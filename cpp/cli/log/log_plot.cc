@@ -140,7 +140,7 @@ plot::FlightRecord RecordReader::Read(LogSource& source) {
 
 void WriteLogPlot(const LogPlotOptions& options, std::ostream& out) {
   LogSource source(options.file);
-  Output output(options.output, out);
+  Output output(options.output, out, source.parts());
   RecordReader reader(options.flight);
   const plot::FlightRecord flight = reader.Read(source);
   if (flight.vehicles.empty()) {

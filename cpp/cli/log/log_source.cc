@@ -40,6 +40,12 @@ std::int64_t NowMs() {
 
 LogSource::LogSource(const std::string& file) : file_(file), recording_(Open(file)) {}
 
+std::vector<std::filesystem::path> LogSource::parts() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& part : recording_.parts()) files.push_back(part->file());
+  return files;
+}
+
 std::string LogSource::name() const {
   const std::string name = std::filesystem::path(file_).filename().string();
   const std::size_t end = name.find(".lcm");

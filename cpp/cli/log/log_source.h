@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -8,6 +10,9 @@
 #include "recording/recording.h"
 
 namespace skein::cli {
+
+/// A bus has a few dozen; no more are told apart of a log that makes names up.
+inline constexpr std::size_t kMostChannels = 10'000;
 
 /// A recording as the `skein log` commands read it: with progress on a terminal, ended by Ctrl-C, and with a
 /// word on standard error about what could not be read.
@@ -17,6 +22,7 @@ class LogSource {
   explicit LogSource(const std::string& file);
 
   const recording::Recording& recording() const { return recording_; }
+  std::vector<std::filesystem::path> parts() const;
   const std::string& file() const { return file_; }
   /// Without folder and ".lcm".
   std::string name() const;

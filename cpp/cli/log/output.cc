@@ -22,12 +22,17 @@ namespace fs = std::filesystem;
 
 }  // namespace
 
-Output::Output(const OutputOptions& options, std::ostream& standard_output)
+Output::Output(const OutputOptions& options, std::ostream& standard_output,
+               const std::vector<std::filesystem::path>& inputs)
     : options_(options), standard_output_(standard_output) {
   if (options.file.empty()) return;
   std::error_code error;
   const fs::file_status status = fs::status(options.file, error);
   if (fs::is_directory(status)) throw config::ConfigError(options.file + ": is a folder");
+  for (const fs::path& input : inputs) {
+    if (fs::equivalent(input, options.file, error))
+      throw config::ConfigError(options.file + ": is what is read; write into another file");
+  }
   if (fs::is_regular_file(status) && !options.force) RefuseToReplace(options.file);
   // Into a pipe or a device there is nothing to replace.
   const bool is_plain = !fs::exists(status) || fs::is_regular_file(status);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <ostream>
 #include <string>
+#include <vector>
 
 namespace skein::cli {
 
@@ -15,8 +16,10 @@ struct OutputOptions {
 /// Where a command writes to: standard output, or a file that appears only once it is whole.
 class Output {
  public:
-  /// Throws config::ConfigError when the file cannot be made, or exists and is not to be replaced.
-  Output(const OutputOptions& options, std::ostream& standard_output);
+  /// @param inputs what is read meanwhile: never replaced. Throws config::ConfigError when the file cannot be
+  /// made, or exists and is not to be replaced.
+  Output(const OutputOptions& options, std::ostream& standard_output,
+         const std::vector<std::filesystem::path>& inputs);
   /// Without Finish() no file is left behind.
   ~Output();
   Output(const Output&) = delete;

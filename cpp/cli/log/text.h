@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -8,6 +9,9 @@
 
 /// How `skein log` writes things.
 namespace skein::cli {
+
+/// By event_t's and alarm_t's severity.
+inline constexpr std::array<const char*, 4> kSeverities = {"info", "advisory", "caution", "warning"};
 
 /// "2026-11-25T14:30:46.050Z". Years past 9999 and before 1970 are cut off there.
 std::string IsoTime(bus::Utime utime);

@@ -239,6 +239,7 @@ TEST(Live, ASlowBrowserDoesNotDelayAFastOneAndSkipsToTheNewest) {
       slot.vehicle_id = 1;
       formation.slots.assign(8'000, slot);
       for (slot_t& one : formation.slots) {
+        one.vehicle_id = static_cast<int>(&one - formation.slots.data()) + 1;
         one.forward_m = 1e-3 * static_cast<double>(random());
         one.left_m = 1e-3 * static_cast<double>(random());
         one.up_m = 1e-3 * static_cast<double>(random());

@@ -82,7 +82,9 @@ TEST(DropList, IsRefusedWithThePlaceOfWhatIsWrong) {
   EXPECT_EQ(Refusal("b.csv", "at_s,uav,for_s,directoin\n1,2,3,up\n"),
             "b.csv line 2: /directoin: unknown key; did you mean \"direction\"?");
   EXPECT_EQ(Refusal("b.csv", "at_s,uav,for_s\n"), "b.csv: lists no drops");
-  EXPECT_EQ(Refusal("b.csv", ""), "b.csv: cannot be read, or is empty");
+  EXPECT_EQ(Refusal("b.csv", ""), "b.csv: is empty");
+  EXPECT_EQ(Refusal("b.csv", std::string("at_s\0uav", 8)), "b.csv: is no text file");
+  EXPECT_THROW(ReadDrops("/there/is/none.csv"), config::ConfigError);
   EXPECT_EQ(Refusal("b.json", R"([{"at_s": 1, "uav": 2, "for_s": 3, "loss": 2}])"),
             "b.json: /0/loss: must be 0 .. 1, is 2");
   EXPECT_THROW(ReadDrops("/"), config::ConfigError);

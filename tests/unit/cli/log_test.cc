@@ -328,6 +328,41 @@ TEST_F(LogTest, TellsUavsThatFlyInOneRecordingOnly) {
   EXPECT_NE(ran.output.find("UAV3  only in the first"), std::string::npos) << ran.output;
 }
 
+TEST_F(LogTest, ReplacesNoRecordingThatItReadsNotEvenWhenAsked) {
+  const std::string bytes = Read(flight());
+  const std::string file = Write("mine.lcm", bytes);
+  const std::string part = Write("mine.lcm.01", bytes);
+  const std::vector<std::vector<std::string>> commands = {
+      {"csv", "--channel", "EVENT"}, {"geojson"}, {"kml"}, {"plot"}, {"cut", "--from", "1"}};
+  for (const auto& command : commands) {
+    for (const std::string& out : {file, part, (folder_ / "./mine.lcm").string()}) {
+      auto words = With(command, file);
+      words.insert(words.end(), {"--out", out, "--force"});
+      EXPECT_EQ(Refusal(words), out + ": is what is read; write into another file");
+    }
+  }
+  EXPECT_EQ(Read(file), bytes);
+  EXPECT_EQ(Read(part), bytes);
+}
+
+TEST_F(LogTest, SaysInWordsWhatANumberMustBe) {
+  const auto wrong = [&](const std::vector<std::string>& words) {
+    try {
+      Run(words);
+    } catch (const CLI::ParseError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(wrong({"cut", flight(), "--from", "-5", "--out", "x"}), "--from: must be 0 or more, is -5");
+  EXPECT_EQ(wrong({"cut", flight(), "--to", "nan", "--out", "x"}), "--to: must be 0 or more, is nan");
+  EXPECT_EQ(wrong({"csv", flight(), "--channel", "EVENT", "--from", "soon"}),
+            "--from: must be 0 or more, is soon");
+  EXPECT_EQ(wrong({"events", flight(), "--least", "bogus"}),
+            "--least: must be info, advisory, caution or warning, is bogus");
+  EXPECT_EQ(wrong({"events", flight(), "--least", "Caution"}), "");
+}
+
 TEST_F(LogTest, ReplacesNoFileUnasked) {
   const std::string file = Write("kept.csv", "mine");
   EXPECT_EQ(Refusal({"csv", flight(), "--channel", "EVENT", "--out", file}),

@@ -57,7 +57,7 @@ TEST_F(TrafficTest, TellsRateBandwidthAndSizeOfEachChannel) {
   EXPECT_EQ(states.count, 40);
   EXPECT_EQ(states.least_bytes, bytes);
   EXPECT_EQ(states.most_bytes, bytes);
-  const Traffic::Rate rate = traffic_.RateOf(states, kStart + 2 * bus::kSecond);
+  const Traffic::Rate rate = traffic_.RateOf(states, kStart + 2 * bus::kSecond).value();
   EXPECT_DOUBLE_EQ(rate.messages_s, 20);
   EXPECT_DOUBLE_EQ(rate.bytes_s, 20.0 * static_cast<double>(bytes));
   EXPECT_NEAR(states.jitter_s().value(), 0, 1e-12);
@@ -67,7 +67,7 @@ TEST_F(TrafficTest, TellsRateBandwidthAndSizeOfEachChannel) {
 
 TEST_F(TrafficTest, ForgetsOldRates) {
   for (int tick = 0; tick < 40; ++tick) Hear(kStart + tick * 50'000, "FLEET_STATE", State(tick));
-  EXPECT_EQ(traffic_.RateOf(At("FLEET_STATE"), kStart + 60 * bus::kSecond).messages_s, 0);
+  EXPECT_EQ(traffic_.RateOf(At("FLEET_STATE"), kStart + 60 * bus::kSecond)->messages_s, 0);
 }
 
 TEST_F(TrafficTest, MeasuresJitterFromBurstToBurst) {

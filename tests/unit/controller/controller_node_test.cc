@@ -16,12 +16,12 @@
 #include "bus/transport.h"
 #include "controller/formation_message.h"
 #include "core/frames.h"
+#include "unit/controller/flight_bench.h"
 
 namespace skein::controller {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr bus::Utime kTick = 50'000;
+using std::numbers::pi;
 
 /// A controller on a bus, and a fleet that the test plays: UAV1 to UAV3 in their slots, UAV9 in no formation.
 class ControllerNodeTest : public testing::Test {
@@ -33,13 +33,13 @@ class ControllerNodeTest : public testing::Test {
     formation.name = "Triangle";
     formation.shape = Shape::kTriangle;
     formation.spacing_m = 500;
-    formation.leader = {0, 0, 1000, 50, kPi / 2};
+    formation.leader = {0, 0, 1000, 50, pi / 2};
     const auto offsets = ShapeSlots(Shape::kTriangle, 3, 500);
     for (int id = 1; id <= 3; ++id)
       formation.slots.push_back({id, offsets[static_cast<std::size_t>(id - 1)]});
     scenario.formations.push_back(formation);
     for (const Slot& slot : formation.slots) {
-      uavs_[slot.vehicle_id] = {-slot.offset.left_m, slot.offset.forward_m, 1000, 50, kPi / 2, 0};
+      uavs_[slot.vehicle_id] = {-slot.offset.left_m, slot.offset.forward_m, 1000, 50, pi / 2, 0};
     }
     uavs_[9] = {20000, 0, 500, 45, 0, 0};
     options_.scenario = scenario;
@@ -100,7 +100,7 @@ class ControllerNodeTest : public testing::Test {
         }
         uav = Step(uav, input, VehicleModel(), 0.05);
       }
-      executor_.RunFor(kTick);
+      executor_.RunFor(FlightBench::kTick);
     }
   }
 

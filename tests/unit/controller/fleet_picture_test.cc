@@ -1,4 +1,5 @@
 #include "controller/fleet_picture.h"
+#include "unit/controller/flight_bench.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,6 @@
 namespace skein::controller {
 namespace {
 
-constexpr bus::Utime kTick = 50'000;
 constexpr bus::Utime kStart = 1'577'836'800'000'000;
 
 VehicleState At(double east_m) { return {east_m, 0, 1000, 50, 0, 0}; }
@@ -28,8 +28,8 @@ class VehicleViewTest : public testing::Test {
 TEST_F(VehicleViewTest, TakesWhatIsNewerOnly) {
   EXPECT_TRUE(Hear(1, kStart));
   EXPECT_FALSE(Hear(2, kStart)) << "the same again";
-  EXPECT_FALSE(Hear(3, kStart - kTick)) << "late by jitter";
-  now_ += kTick;
+  EXPECT_FALSE(Hear(3, kStart - FlightBench::kTick)) << "late by jitter";
+  now_ += FlightBench::kTick;
   EXPECT_TRUE(Hear(4, now_));
   EXPECT_DOUBLE_EQ(view_.state->east_m, 4);
 }
@@ -38,20 +38,20 @@ TEST_F(VehicleViewTest, TakesAClockThatWasSetBackAfterThreeRisingStamps) {
   EXPECT_TRUE(Hear(1, kStart));
   const bus::Utime back = kStart - 60 * bus::kSecond;
   EXPECT_FALSE(Hear(2, back));
-  EXPECT_FALSE(Hear(3, back + kTick));
-  EXPECT_TRUE(Hear(4, back + 2 * kTick));
-  EXPECT_TRUE(Hear(5, back + 3 * kTick));
+  EXPECT_FALSE(Hear(3, back + FlightBench::kTick));
+  EXPECT_TRUE(Hear(4, back + 2 * FlightBench::kTick));
+  EXPECT_TRUE(Hear(5, back + 3 * FlightBench::kTick));
 }
 
 TEST_F(VehicleViewTest, IsNotLedAstrayByOneStampFarAhead) {
   EXPECT_TRUE(Hear(1, kStart));
   EXPECT_FALSE(Hear(2, kStart + 3600 * bus::kSecond));
-  now_ += kTick;
+  now_ += FlightBench::kTick;
   EXPECT_TRUE(Hear(3, now_));
 }
 
 TEST_F(VehicleViewTest, TakesAClockThatRunsAheadAsOfTheTick) {
-  for (int i = 0; i < 3; ++i) Hear(i, kStart + 3600 * bus::kSecond + i * kTick);
+  for (int i = 0; i < 3; ++i) Hear(i, kStart + 3600 * bus::kSecond + i * FlightBench::kTick);
   EXPECT_TRUE(view_.fresh);
   EXPECT_EQ(view_.state_utime, now_);
 }

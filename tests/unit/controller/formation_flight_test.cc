@@ -12,7 +12,7 @@
 namespace skein::controller {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 config::FormationConfig Triangle(double spacing_m = 500, const std::string& control = "skein") {
   config::FormationConfig config;
@@ -26,7 +26,7 @@ config::FormationConfig Triangle(double spacing_m = 500, const std::string& cont
   return config;
 }
 
-Path Northbound() { return Path::Straight({0, 0}, kPi / 2, 1000, 50); }
+Path Northbound() { return Path::Straight({0, 0}, pi / 2, 1000, 50); }
 
 Path TurnOf(double turn_rad) {
   PathLeg straight;
@@ -38,7 +38,7 @@ Path TurnOf(double turn_rad) {
   std::vector<SlotOffset> offsets;
   for (const Slot& slot : config.slots) offsets.push_back(slot.offset);
   const PathLimits limits = LimitsOf(std::vector<VehicleModel>(3), offsets);
-  const auto planned = PlanLegs({0, 0}, kPi / 2, 1000, 50, {straight, turn, straight}, limits);
+  const auto planned = PlanLegs({0, 0}, pi / 2, 1000, 50, {straight, turn, straight}, limits);
   EXPECT_TRUE(planned.path) << planned.reason;
   return *planned.path;
 }
@@ -84,7 +84,7 @@ class SmoothFlight {
 };
 
 TEST(FormationFlight, StaysInItsSlotsThroughATurn) {
-  FlightBench bench(Triangle(), TurnOf(kPi));
+  FlightBench bench(Triangle(), TurnOf(pi));
   SmoothFlight smooth;
   smooth.Fly(bench, 250);
   EXPECT_LE(smooth.worst_error_m(), 1);
@@ -92,7 +92,7 @@ TEST(FormationFlight, StaysInItsSlotsThroughATurn) {
 }
 
 TEST(FormationFlight, TakesANewPathInMidTurnWithoutAJump) {
-  FlightBench bench(Triangle(), TurnOf(kPi));
+  FlightBench bench(Triangle(), TurnOf(pi));
   SmoothFlight smooth;
   smooth.Fly(bench, 75);  // the leader is in the turn, the UAVs are about to enter it
   ASSERT_EQ(bench.flight.TakePath({{10000, 0, 1200, 60}, {10000, 12000, 1000, 50}, {-4000, 12000, 1100, 50}},
@@ -125,7 +125,7 @@ TEST(FormationFlight, LoitersAtAnOpenEnd) {
 }
 
 TEST(FormationFlight, HoldsAndResumesWithoutAJump) {
-  FlightBench bench(Triangle(), TurnOf(kPi));
+  FlightBench bench(Triangle(), TurnOf(pi));
   SmoothFlight smooth;
   smooth.Fly(bench, 70);
   ASSERT_EQ(bench.flight.Hold(bench.fleet), "");
@@ -141,7 +141,7 @@ TEST(FormationFlight, HoldsAndResumesWithoutAJump) {
 }
 
 TEST(FormationFlight, GoesStraightOnWhenItsPathIsTakenAway) {
-  FlightBench bench(Triangle(), TurnOf(kPi));
+  FlightBench bench(Triangle(), TurnOf(pi));
   SmoothFlight smooth;
   smooth.Fly(bench, 70);
   ASSERT_EQ(bench.flight.TakePath({}, false, bench.fleet), "");
@@ -151,7 +151,7 @@ TEST(FormationFlight, GoesStraightOnWhenItsPathIsTakenAway) {
 }
 
 TEST(FormationFlight, MovesToNewSlotsAndRefusesOnesThatItsPathIsTooTightFor) {
-  FlightBench bench(Triangle(), TurnOf(kPi));
+  FlightBench bench(Triangle(), TurnOf(pi));
   bench.Fly(5);
   ASSERT_EQ(bench.flight.Edit(Triangle(700), bench.fleet), "");
   bench.Fly(60);
@@ -211,7 +211,7 @@ TEST(FormationFlight, FliesUnderThePapersLawToo) {
 }
 
 TEST(FormationFlight, TellsWhatItDoesWhenALinkIsLostAndComesBack) {
-  FlightBench bench(Triangle(), TurnOf(kPi));
+  FlightBench bench(Triangle(), TurnOf(pi));
   std::set<std::string> texts;
   const auto fly = [&](double seconds) {
     for (double until = bench.time_s() + seconds; bench.time_s() < until;) {
@@ -243,7 +243,7 @@ TEST(FormationFlight, TellsWhatItDoesWhenALinkIsLostAndComesBack) {
 
 TEST(FormationFlight, ClimbsOutOfTheWayNoFasterThanASlowUavCan) {
   // 32 m/s at 80% of 0.35 rad is 8.8 m/s.
-  FlightBench bench(Triangle(), Path::Straight({0, 0}, kPi / 2, 1000, 32));
+  FlightBench bench(Triangle(), Path::Straight({0, 0}, pi / 2, 1000, 32));
   bench.Fly(5);
   bench.Cut(3);
   double fastest = 0;
@@ -261,7 +261,7 @@ TEST(FormationFlight, ClimbsOutOfTheWayNoFasterThanASlowUavCan) {
 TEST(FormationFlight, FliesAloneAndWithNobodyHeard) {
   config::FormationConfig one = Triangle();
   one.slots = {{1, {-1000, 0, 0}}};
-  FlightBench bench(one, TurnOf(kPi));
+  FlightBench bench(one, TurnOf(pi));
   SmoothFlight smooth;
   smooth.Fly(bench, 200);
   EXPECT_LE(smooth.worst_error_m(), 1);

@@ -12,12 +12,12 @@
 #include "bus/simulated_executor.h"
 #include "bus/transport.h"
 #include "controller/controller_node.h"
+#include "unit/controller/flight_bench.h"
 
 namespace skein::controller {
 namespace {
 
 constexpr int kFormations = 40;
-constexpr bus::Utime kTick = 50'000;
 constexpr int kTicks = 20;
 
 /// Formations of one UAV each.
@@ -97,7 +97,7 @@ TEST(ControllerOfManyFormations, SpreadsWhatItSendsOverItsPeriod) {
     state.utime = executor.Now();
     for (vehicle_state_t& vehicle : state.vehicles) vehicle.utime = state.utime;
     bus::PublishChunks(fleet, bus::channel::kFleetState, state);
-    executor.RunFor(kTick);
+    executor.RunFor(FlightBench::kTick);
   }
 
   EXPECT_EQ(Sum(formations), kFormations) << "each once a second";

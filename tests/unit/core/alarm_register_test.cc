@@ -1,4 +1,5 @@
 #include "core/alarm_register.h"
+#include "unit/core/time_steps.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,6 @@ namespace skein {
 namespace {
 
 using Result = AlarmRegister::Result;
-constexpr std::int64_t kSecond = 1'000'000;
 
 AlarmCondition Link(int id, AlertLevel severity = AlertLevel::kWarning) {
   return {"link:" + std::to_string(id), severity, "link of UAV" + std::to_string(id), id};

@@ -7,11 +7,10 @@
 #include <string>
 
 #include "unit/core/fleets.h"
+#include "unit/core/time_steps.h"
 
 namespace skein {
 namespace {
-
-constexpr std::int64_t kSecond = 1'000'000;
 
 Traffic Uav(int id, const Eigen::Vector3d& position, const Eigen::Vector3d& velocity = {0, 0, 0}) {
   Traffic uav;

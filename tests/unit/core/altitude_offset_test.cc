@@ -1,4 +1,5 @@
 #include "core/altitude_offset.h"
+#include "unit/core/time_steps.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,6 @@
 
 namespace skein {
 namespace {
-
-constexpr double kStep = 0.05;
 
 TEST(AltitudeRamp, ClimbsTwoHundredMetresInTwentyFiveSeconds) {
   // 5 s to reach 10 m/s at 2 m/s^2 (25 m), the same to stop, 150 m at 10 m/s in between: 5 + 15 + 5 s.

@@ -9,7 +9,7 @@
 namespace skein {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 VehicleState State(double speed_m_s, double course_rad, double climb_rad) {
   VehicleState state;
@@ -23,7 +23,7 @@ VehicleState State(double speed_m_s, double course_rad, double climb_rad) {
 }
 
 TEST(DeadReckoning, GoesStraightOn) {
-  const Estimate north = DeadReckon(State(50, kPi / 2, 0), 10, 10);
+  const Estimate north = DeadReckon(State(50, pi / 2, 0), 10, 10);
   EXPECT_NEAR(north.position.x(), 100, 1e-9);
   EXPECT_NEAR(north.position.y(), 700, 1e-9);
   EXPECT_NEAR(north.position.z(), 1000, 1e-9);

@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "unit/core/link_trial.h"
+#include "unit/core/time_steps.h"
 
 namespace skein {
 namespace {
@@ -18,7 +19,6 @@ using testing::Fault;
 using testing::LinkTrial;
 using testing::TrialLink;
 
-constexpr std::int64_t kSecond = 1'000'000;
 constexpr std::int64_t kStart = LinkTrial::kStart;
 
 constexpr TrialLink kClean{};

@@ -9,13 +9,13 @@
 #include <string>
 
 #include "core/frames.h"
+#include "unit/core/time_steps.h"
 
 namespace skein {
 namespace {
 
 using std::numbers::pi;
 
-constexpr double kDt = 0.05;
 const SlotOffset kSlot{-1000, 0, 0};
 const VehicleModel kModel;
 
@@ -26,13 +26,13 @@ struct PaperTest {
   PaperLaw law;
 
   StateError Error() const { return ErrorInLeaderFrame(leader, kSlot, wing); }
-  AutopilotInput Control() { return law.Update(leader, kSlot, wing, kModel, kDt); }
+  AutopilotInput Control() { return law.Update(leader, kSlot, wing, kModel, kStep); }
   void Fly(const AutopilotInput& input) {
-    wing = Step(wing, input, kModel, kDt);
+    wing = Step(wing, input, kModel, kStep);
     const Eigen::Vector3d velocity = Velocity(leader);
-    leader.east_m += velocity.x() * kDt;
-    leader.north_m += velocity.y() * kDt;
-    leader.up_m += velocity.z() * kDt;
+    leader.east_m += velocity.x() * kStep;
+    leader.north_m += velocity.y() * kStep;
+    leader.up_m += velocity.z() * kStep;
   }
 };
 
@@ -50,7 +50,7 @@ TEST(PaperLaw, AssemblesAsInFigure6) {
   double forward_s = 0, left_s = 0, up_s = 0, speed_s = 0, fastest_m_s = 0, slowest_m_s = 1000;
   for (int i = 0; i < 300 * 20; ++i) {
     const StateError error = test.Error();
-    const double t = i * kDt;
+    const double t = i * kStep;
     if (std::abs(error.forward_m) > 10) forward_s = t;
     if (std::abs(error.left_m) > 10) left_s = t;
     if (std::abs(error.up_m) > 10) up_s = t;

@@ -8,7 +8,7 @@
 namespace skein {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Least distance of a point from a chain of chords.
 double Distance(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>& line) {
@@ -23,10 +23,9 @@ double Distance(const Eigen::Vector3d& point, const std::vector<Eigen::Vector3d>
 
 /// East 1000 m, a left half circle of 500 m radius, west 1000 m; 200 m up on the way.
 Path HalfTurn() {
-  const double arc_m = kPi * 500;
+  const double arc_m = pi * 500;
   return Path(
-      0,
-      {{1000, {0, 0}, 0, 0, 0}, {arc_m, {1000, 0}, 0, 1. / 500, 1. / 500}, {1000, {1000, 1000}, kPi, 0, 0}},
+      0, {{1000, {0, 0}, 0, 0, 0}, {arc_m, {1000, 0}, 0, 1. / 500, 1. / 500}, {1000, {1000, 1000}, pi, 0, 0}},
       {{0, 100, 50}, {2000 + arc_m, 300, 50}}, std::nullopt);
 }
 
@@ -43,7 +42,7 @@ TEST(SampleLine, StaysWithinTheChordErrorEverywhere) {
 }
 
 TEST(SampleLine, IsFewPointsForAStraightPathAndOneForNoLength) {
-  const Path path = Path::Straight({0, 0}, kPi / 2, 1000, 50);
+  const Path path = Path::Straight({0, 0}, pi / 2, 1000, 50);
   EXPECT_LE(SampleLine(path, 0, 20'000).size(), 80u);
   EXPECT_EQ(SampleLine(path, 100, 100).size(), 1u);
 }
@@ -65,7 +64,7 @@ TEST(StretchToDraw, IsTwentyKilometresOfAStraightPath) {
 }
 
 TEST(StretchToDraw, GoesOnceRoundACircleForGood) {
-  const double round_m = 2 * kPi * 500;
+  const double round_m = 2 * pi * 500;
   const Path circle(0, {{round_m, {0, 0}, 0, 1. / 500, 1. / 500}}, {{0, 100, 50}}, std::nullopt);
   const DrawnStretch stretch = StretchToDraw(circle, 10'000, true);
   EXPECT_NEAR(stretch.to_arc_m, 10'000 + round_m, 1e-6);
@@ -73,7 +72,7 @@ TEST(StretchToDraw, GoesOnceRoundACircleForGood) {
 }
 
 TEST(StretchToDraw, GoesOnceRoundALoop) {
-  const double round_m = 2 * kPi * 500;
+  const double round_m = 2 * pi * 500;
   const Path loop(0, {{1000, {-1000, 0}, 0, 0, 0}, {round_m, {0, 0}, 0, 1. / 500, 1. / 500}}, {{0, 100, 50}},
                   1000);
   EXPECT_NEAR(StretchToDraw(loop, 0, false).to_arc_m, 1000 + round_m, 1e-6);

@@ -8,17 +8,17 @@
 #include <stdexcept>
 
 #include "core/frames.h"
+#include "unit/core/time_steps.h"
 
 namespace skein {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kStep = 0.05;
+using std::numbers::pi;
 
 SlotReference NorthboundSlot(double time_s, double speed_m_s = 50) {
   SlotReference slot;
   slot.position = {0, 4000 + speed_m_s * time_s, 1000};
-  slot.course_rad = kPi / 2;
+  slot.course_rad = pi / 2;
   slot.speed_m_s = speed_m_s;
   return slot;
 }
@@ -54,7 +54,7 @@ Approach Fly(VehicleState uav, double duration_s, const VehicleModel& model = {}
 }
 
 TEST(SkeinLaw, AssemblesFromThePapersStartWithinAMinute) {
-  const Approach approach = Fly({1000, 3000, 800, 60, kPi / 2, 0}, 120);
+  const Approach approach = Fly({1000, 3000, 800, 60, pi / 2, 0}, 120);
   EXPECT_LE(approach.settled_s.maxCoeff(), 60);
   EXPECT_LE(approach.overshoot_m.maxCoeff(), 5);
   EXPECT_GE(approach.least_speed_m_s, 30);
@@ -62,7 +62,7 @@ TEST(SkeinLaw, AssemblesFromThePapersStartWithinAMinute) {
 }
 
 TEST(SkeinLaw, ComesBackFromAheadAboveAndTheWrongWayRound) {
-  for (const double course : {-kPi / 2, 0.0, kPi, 2 * kPi + kPi / 2, -7.0}) {
+  for (const double course : {-pi / 2, 0.0, pi, 2 * pi + pi / 2, -7.0}) {
     const Approach approach = Fly({-300, 5500, 1150, 70, course, 0.1}, 300);
     EXPECT_LE(approach.end_error_m, 3) << "started on course " << course;
     EXPECT_GE(approach.least_speed_m_s, 30);
@@ -72,10 +72,10 @@ TEST(SkeinLaw, ComesBackFromAheadAboveAndTheWrongWayRound) {
 
 TEST(SkeinLaw, AsksForNothingInItsSlot) {
   const VehicleModel model;
-  const VehicleState uav{0, 4000, 1000, 50, kPi / 2, 0};
+  const VehicleState uav{0, 4000, 1000, 50, pi / 2, 0};
   const LawOutput output = SkeinLaw().Control(NorthboundSlot(0), uav, model, kStep);
   EXPECT_NEAR(output.input.speed_m_s, 50, 1e-9);
-  EXPECT_NEAR(output.input.course_rad, kPi / 2, 1e-9);
+  EXPECT_NEAR(output.input.course_rad, pi / 2, 1e-9);
   EXPECT_NEAR(output.input.climb_rad, 0, 1e-9);
 }
 
@@ -85,15 +85,15 @@ TEST(SkeinLaw, InvertsTheAutopilotForATurningSlot) {
   SlotReference slot = NorthboundSlot(0);
   slot.course_rate_rad_s = 0.05;
   slot.acceleration_m_s2 = 0.5;
-  const VehicleState uav{0, 4000, 1000, 50, kPi / 2, 0};
+  const VehicleState uav{0, 4000, 1000, 50, pi / 2, 0};
   const LawOutput output = SkeinLaw().Control(slot, uav, VehicleModel(), kStep);
-  EXPECT_NEAR(output.input.course_rad, kPi / 2 + 0.5, 1e-9);
+  EXPECT_NEAR(output.input.course_rad, pi / 2 + 0.5, 1e-9);
   EXPECT_NEAR(output.input.speed_m_s, 50 + 0.5 / 0.01, 1e-9);
 }
 
 TEST(SkeinLaw, KeepsItsSetpointsWithinTheEnvelope) {
   const VehicleModel model;
-  const VehicleState uav{9000, -20000, 0, 31, -kPi / 2, -0.3};
+  const VehicleState uav{9000, -20000, 0, 31, -pi / 2, -0.3};
   const LawOutput output = SkeinLaw().Control(NorthboundSlot(0), uav, model, kStep);
   EXPECT_LE(output.setpoint.speed_m_s, 90);
   EXPECT_LE(std::abs(output.setpoint.climb_rad), 0.35);
@@ -104,8 +104,8 @@ TEST(SkeinLaw, KeepsItsSetpointsWithinTheEnvelope) {
 
 TEST(SkeinLaw, TurnsTheShortWayAcrossPlusMinusPi) {
   SlotReference slot = NorthboundSlot(0);
-  slot.course_rad = -kPi + 0.1;
-  const VehicleState uav{0, 4000, 1000, 50, kPi - 0.1, 0};
+  slot.course_rad = -pi + 0.1;
+  const VehicleState uav{0, 4000, 1000, 50, pi - 0.1, 0};
   const LawOutput output = SkeinLaw().Control(slot, uav, VehicleModel(), kStep);
   EXPECT_GT(output.input.course_rad, uav.course_rad);
   EXPECT_LT(output.setpoint.course_rad - uav.course_rad, 0.5);

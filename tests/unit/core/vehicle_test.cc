@@ -9,13 +9,12 @@
 #include <stdexcept>
 
 #include "core/frames.h"
+#include "unit/core/time_steps.h"
 
 namespace skein {
 namespace {
 
 using std::numbers::pi;
-
-constexpr double kStep = 0.05;
 
 VehicleState Fly(VehicleState state, const AutopilotInput& input, const VehicleModel& model,
                  double duration_s, double step_s) {

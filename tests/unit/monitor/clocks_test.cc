@@ -63,5 +63,21 @@ TEST_F(MonitorClocks, ThatAreALittleOffAreNotToldAndOneThatIsSetRightEndsTheAlar
   EXPECT_EQ(Alarm()->state, alarm_t::ENDED);
 }
 
+TEST_F(MonitorClocks, AreToldWhenThatOfTheHostIsSet) {
+  Start();
+  const auto alarm = [&] { return std::ranges::find(alarms_, "wall-clock", &alarm_t::condition); };
+  Run(5);
+  EXPECT_EQ(alarm(), alarms_.end());
+  executor_.SetWallAhead(-3600 * bus::kSecond);
+  Run(3);
+  ASSERT_NE(alarm(), alarms_.end());
+  EXPECT_TRUE(alarm()->text.starts_with("the clock of the monitor's host was set back by 3600.0 s"))
+      << alarm()->text;
+  executor_.SetWallAhead(0);
+  Run(3);
+  ASSERT_NE(alarm(), alarms_.end());
+  EXPECT_EQ(alarm()->state, alarm_t::ENDED);
+}
+
 }  // namespace
 }  // namespace skein::monitor

@@ -31,6 +31,25 @@ TEST_F(MonitorLinks, AreUpWithoutAnEvent) {
   }
 }
 
+TEST_F(MonitorLinks, LeapOfAUavIsToldOnceInTenSeconds) {
+  Start();
+  Run(20);
+  fleet_.uavs[2].start.north_m += 5000;
+  Run(5);
+  ASSERT_EQ(heard_.Events("position_leapt").size(), 1u);
+  const event_t leap = heard_.Events("position_leapt")[0];
+  EXPECT_EQ(leap.vehicle_id, 2);
+  EXPECT_EQ(leap.severity, event_t::CAUTION);
+  EXPECT_EQ(leap.text.substr(0, 50), "UAV2 is 5000 m from where it was 0.05 s before: it");
+  fleet_.uavs[2].start.north_m -= 5000;
+  Run(3);
+  EXPECT_EQ(heard_.Events("position_leapt").size(), 1u);
+  Run(10);
+  fleet_.uavs[2].start.north_m += 5000;
+  Run(3);
+  EXPECT_EQ(heard_.Events("position_leapt").size(), 2u);
+}
+
 TEST_F(MonitorLinks, AreTold1HzWhileNothingChanges) {
   Start();
   Run(10);

@@ -177,6 +177,16 @@ TEST_F(IndexFile, IsOfNoUseWhenItIsDamagedAnywhere) {
   }
 }
 
+TEST_F(IndexFile, IsNotReadWholeBeforeItIsKnownToBeOurs) {
+  ASSERT_EQ(SaveIndex(log_.path(), Index(log_.path())), "");
+  // A hole of 100 GB behind it, then nothing but the hole.
+  fs::resize_file(IndexFileOf(log_.path()), 100'000'000'000);
+  EXPECT_FALSE(LoadIndex(log_.path()));
+  fs::resize_file(IndexFileOf(log_.path()), 0);
+  fs::resize_file(IndexFileOf(log_.path()), 100'000'000'000);
+  EXPECT_FALSE(LoadIndex(log_.path()));
+}
+
 TEST_F(IndexFile, IsNotKeptInAFolderThatCannotBeWritten) {
   const LogIndex index = Index(log_.path());
   EXPECT_NE(SaveIndex("/proc/self/status", index), "");

@@ -1,0 +1,199 @@
+// Simulator, station and operator on three hosts: over a bad network, and one that falls apart.
+//
+// SKEIN_HOSTS_SECONDS: for how long the network is bad, and how long it is apart (default: 15).
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <skein/formation_status_t.hpp>
+#include <skein/link_status_t.hpp>
+#include <string>
+#include <thread>
+
+#include "bus/bus.h"
+#include "bus/channels.h"
+#include "bus/live_executor.h"
+#include "bus/transport.h"
+#include "system/bus_ear.h"
+#include "system/hosts.h"
+#include "system/process.h"
+
+namespace skein::testing {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+const std::string kUrl = "udpm://239.255.76.67:7667?ttl=1";
+
+Seconds Duration() {
+  const char* seconds = std::getenv("SKEIN_HOSTS_SECONDS");
+  return Seconds(seconds != nullptr ? std::stod(seconds) : 15);
+}
+
+/// What an operator's host has heard for a time.
+struct Heard {
+  int statuses = 0;
+  double worst_slot_m = 0;
+  std::map<std::string, int> link_states;  ///< how often told
+};
+
+class HostsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (geteuid() != 0) GTEST_SKIP() << "network namespaces need root";
+    hosts_ = std::make_unique<Hosts>(std::vector<std::string>{"sim", "station", "operator"});
+    Start("sim", "fleet-simulator", {"--scenario", "turn"});
+    Start("station", "formation-controller", {"--scenario", "turn"});
+    Start("station", "collision-monitor", {"--scenario", "turn"});
+    ASSERT_TRUE(HoldsSlots(20, 30s));
+    ASSERT_TRUE(LinksAre(link_status_t::LINK_UP, 30s));
+  }
+  void TearDown() override {
+    for (const auto& [name, process] : processes_) {
+      EXPECT_EQ(process->WaitForEnd(0s), std::nullopt) << name << " has ended: " << process->output();
+    }
+    processes_.clear();
+  }
+
+  void Start(const std::string& host, const std::string& program, std::vector<std::string> options) {
+    const Hosts::Stay stay = hosts_->On(host);
+    options.insert(options.begin(), {Program(program), "--lcm-url", kUrl});
+    processes_[program] = std::make_unique<Process>(options);
+  }
+  bool HoldsSlots(double within_m, Seconds timeout) const {
+    const Hosts::Stay stay = hosts_->On("operator");
+    return Hears<formation_status_t>(
+        kUrl, bus::channel::kFormationStatus,
+        [&](const formation_status_t& status) { return !status.slots.empty() && Worst(status) <= within_m; },
+        timeout);
+  }
+  /// Whether all links are in that state at some moment within `timeout`: up both ways, or lost downwards
+  /// (what became of the uplink cannot be known then).
+  bool LinksAre(std::int8_t state, Seconds timeout) const {
+    const Hosts::Stay stay = hosts_->On("operator");
+    return Hears<link_status_t>(
+        kUrl, bus::channel::kLinkStatus,
+        [&](const link_status_t& status) {
+          return !status.links.empty() && std::ranges::all_of(status.links, [&](const vehicle_link_t& link) {
+            return link.downlink == state && (link.uplink == state || state == link_status_t::LINK_LOST);
+          });
+        },
+        timeout);
+  }
+  Heard Listen(Seconds duration) const {
+    const Hosts::Stay stay = hosts_->On("operator");
+    const bus::Transport transport = bus::MakeTransport(kUrl);
+    bus::LiveExecutor executor(transport.lcm);
+    bus::Bus ear(transport.lcm, "system-test", executor);
+    Heard heard;
+    ear.Subscribe<formation_status_t>(bus::channel::kFormationStatus, [&](const formation_status_t& status) {
+      ++heard.statuses;
+      heard.worst_slot_m = std::max(heard.worst_slot_m, Worst(status));
+    });
+    ear.Subscribe<link_status_t>(bus::channel::kLinkStatus, [&](const link_status_t& status) {
+      for (const vehicle_link_t& link : status.links) {
+        for (const std::int8_t state : {link.downlink, link.uplink}) ++heard.link_states[kStates.at(state)];
+      }
+    });
+    executor.At(executor.Now() + bus::ToUtime(duration.count()), [&] { executor.Stop(); });
+    executor.Run();
+    return heard;
+  }
+  static double Worst(const formation_status_t& status) {
+    double worst_m = 0;
+    for (const slot_status_t& slot : status.slots)
+      worst_m = std::max(worst_m, std::hypot(slot.forward_error_m, slot.left_error_m, slot.up_error_m));
+    return worst_m;
+  }
+
+  const std::map<int, std::string> kStates{{link_status_t::LINK_UP, "up"},
+                                           {link_status_t::LINK_LATE, "late"},
+                                           {link_status_t::LINK_LOST, "lost"},
+                                           {link_status_t::LINK_UNKNOWN, "unknown"}};
+  std::unique_ptr<Hosts> hosts_;
+  std::map<std::string, std::unique_ptr<Process>> processes_;
+};
+
+TEST_F(HostsTest, FlyInFormationOverABadNetwork) {
+  hosts_->SetWire(R"({"loss": 0.1, "delay_s": 0.2, "jitter_s": 0.05, "duplicate": 0.02})");
+  Heard heard = Listen(Duration());
+  std::cout << "10% loss, 200 ms +- 50 ms, 2% doubled, for " << Duration().count() << " s: slots within "
+            << heard.worst_slot_m << " m; links told up " << heard.link_states["up"] << ", late "
+            << heard.link_states["late"] << ", lost " << heard.link_states["lost"] << " times\n";
+  EXPECT_GT(heard.statuses, 0);
+  EXPECT_LE(heard.worst_slot_m, 20);
+  EXPECT_GT(heard.link_states["up"], 0);
+  EXPECT_EQ(heard.link_states["lost"], 0);
+  EXPECT_EQ(heard.link_states["late"], 0);
+}
+
+TEST_F(HostsTest, FindEachOtherAgainWhenTheNetworkWasApart) {
+  hosts_->SetWire(R"({"apart": ["to-sim"]})");
+  const auto cut = Clock::now();
+  EXPECT_TRUE(LinksAre(link_status_t::LINK_LOST, 8s));
+  const Seconds found = Clock::now() - cut;
+  EXPECT_LE(found.count(), 5);
+  Listen(Duration() - (Clock::now() - cut));
+  hosts_->SetWire("{}");
+  const auto healed = Clock::now();
+  EXPECT_TRUE(LinksAre(link_status_t::LINK_UP, 10s));
+  const Seconds up = Clock::now() - healed;
+  EXPECT_TRUE(HoldsSlots(20, 300s));
+  std::cout << "apart for " << Duration().count() << " s: all links told lost after " << found.count()
+            << " s; whole again: up after " << up.count() << " s, in formation within 20 m after "
+            << Seconds(Clock::now() - healed).count() << " s\n";
+}
+
+/// What comes back, comes back by itself: nobody is started again.
+class CutOffTest : public HostsTest, public ::testing::WithParamInterface<std::string> {
+ protected:
+  void CutOff() const {
+    if (GetParam() == "route") return hosts_->Ip(GetHost(), {"route", "del", "224.0.0.0/4"});
+    hosts_->Ip(GetHost(), {"link", "set", "eth0", "down"});
+  }
+  void Restore() const {
+    if (GetParam() == "interface") hosts_->Ip(GetHost(), {"link", "set", "eth0", "up"});
+    hosts_->Ip(GetHost(), {"route", "add", "224.0.0.0/4", "dev", "eth0"});
+  }
+  static std::string GetHost() { return "station"; }
+};
+
+TEST_P(CutOffTest, GoesOnWhenItIsBack) {
+  CutOff();
+  // Uplinks are lost that nobody can tell of: the UAVs alone know.
+  std::this_thread::sleep_for(6s);
+  Restore();
+  EXPECT_TRUE(LinksAre(link_status_t::LINK_UP, 15s));
+  EXPECT_TRUE(HoldsSlots(20, 200s));
+}
+
+INSTANTIATE_TEST_SUITE_P(Station, CutOffTest, ::testing::Values("route", "interface"),
+                         [](const auto& named) { return named.param; });
+
+TEST_F(HostsTest, KeepThePageAndItsCommandsOverABadNetwork) {
+  Start("operator", "web-bridge", {"--port", "8080"});
+  hosts_->SetWire(R"({"loss": 0.1, "delay_s": 0.2, "jitter_s": 0.05, "duplicate": 0.02})");
+  const Hosts::Stay stay = hosts_->On("operator");
+  ASSERT_TRUE(processes_["web-bridge"]->WaitForOutput("http://127.0.0.1:8080", 10s));
+  for (const char* what : {"hold", "resume"}) {
+    const Finished done = RunToEnd({Program("skein"), "--lcm-url", kUrl, "formation", what, "1"});
+    EXPECT_EQ(done.exit_code, 0) << done.output;
+  }
+  const Finished page =
+      RunToEnd({"python3", "-c",
+                "import urllib.request; "
+                "print(urllib.request.urlopen('http://127.0.0.1:8080/api/vehicles').read().decode())"});
+  EXPECT_EQ(page.exit_code, 0) << page.output;
+  EXPECT_NE(page.output.find("UAV3"), std::string::npos) << page.output;
+}
+
+}  // namespace
+}  // namespace skein::testing
