@@ -132,6 +132,7 @@ FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& op
   bus_.executor().At(start_utime(), [this] { Tick(); });
   bus_.executor().Every(
       kPeriod, [this] { Tick(); }, start_utime());
+  SaveNow();  // also who is killed at once is to come back to the same flight
   if (state_file_.kept())
     bus_.executor().Every(bus::kSecond, [this] { state_file_.Save(Encode(StateNow())); });
 }

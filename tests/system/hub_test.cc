@@ -105,7 +105,9 @@ TEST_F(HubTest, CarriesAFlightOverSubnetsAndMayBeKilledAndStartedAgain) {
       << nodes_["collision-monitor"]->output();
   EXPECT_EQ(Formation("resume").exit_code, 1) << "without a hub nothing can be commanded";
   StartHub();
-  EXPECT_TRUE(HearsFormation(formation_status_t::MODE_HOLDING, 20s)) << "what was commanded is forgotten";
+  EXPECT_TRUE(HearsFormation(formation_status_t::MODE_HOLDING, 20s))
+      << "what was commanded is forgotten: " << nodes_["formation-controller"]->output()
+      << nodes_["fleet-simulator"]->output();
   const Finished resume = Formation("resume");
   EXPECT_EQ(resume.exit_code, 0) << resume.output;
   EXPECT_TRUE(HearsFormation(formation_status_t::MODE_IN_FORMATION, 60s));
