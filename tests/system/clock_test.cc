@@ -53,6 +53,7 @@ class ClockTest : public FaultsTest, public ::testing::WithParamInterface<std::s
 TEST_P(ClockTest, NobodyMindsThatItIsSetByAnHour) {
   ASSERT_NE(FakeTimeLibrary(), "") << "libfaketime is missing: scripts/setup test";
   StartAll();
+  const std::int64_t flight = NextState().session_id;
   SetWallClock(GetParam());
   EXPECT_TRUE(HearsAlarm(
       "wall-clock", [](const alarm_t&) { return true; }, 10s));
@@ -70,7 +71,14 @@ TEST_P(ClockTest, NobodyMindsThatItIsSetByAnHour) {
         << "time stands still";
     EXPECT_TRUE(HoldsSlots(20, 10s));
     EXPECT_FALSE(HearsLinkTrouble(2s));
+    EXPECT_EQ(NextState().session_id, flight) << "another flight has begun";
   }
+  const auto of_clocks = [](const alarm_list_t& list) {
+    return std::ranges::any_of(list.alarms,
+                               [](const alarm_t& alarm) { return alarm.condition.starts_with("clock:"); });
+  };
+  EXPECT_FALSE(Hears<alarm_list_t>(url_, bus::channel::kAlarms, of_clocks, 2s))
+      << "somebody goes by another clock";
   Skein({"formation", "hold", "1"});
   Skein({"formation", "resume", "1"});
 }
