@@ -153,14 +153,15 @@ TEST_F(RunScriptTest, RecordsTheFlightFromItsFirstTick) {
 TEST_F(RunScriptTest, GivesAProcessUpThatDiesOverAndOver) {
   Process run(Command());
   ASSERT_TRUE(run.WaitForOutput(Address(), 60s)) << run.output();
-  for (int death = 1; death <= 5; ++death) {
+  // Five short lives; the first one may have been long while the others were started.
+  bool given_up = false;
+  for (int death = 1; death <= 6 && !given_up; ++death) {
     const std::int64_t killed_utime = WallClock();
     kill(Find("collision-monitor"), SIGKILL);
-    if (death < 5) {
-      ASSERT_TRUE(IsBack("collision-monitor", killed_utime, 5s)) << run.output();
-    }
+    given_up = run.WaitForOutput("collision-monitor died 5 times", death < 5 ? 0s : 1s);
+    ASSERT_TRUE(given_up || IsBack("collision-monitor", killed_utime, 5s)) << run.output();
   }
-  EXPECT_TRUE(run.WaitForOutput("collision-monitor died 5 times", 5s)) << run.output();
+  EXPECT_TRUE(given_up) << run.output();
   EXPECT_EQ(Find("collision-monitor"), 0);
   EXPECT_TRUE(HearsHeartbeat(url_, "formation-controller"));
   run.Signal(SIGINT);
