@@ -6,10 +6,12 @@
 #include <limits>
 #include <string>
 
-/// What a number on a command line must be, said in words. CLI11's own checks let "nan" through, and tell of 309 digits.
+/// What a number on a command line must be, said in words. CLI11's own checks let "nan" through, and tell of
+/// 309 digits.
 namespace skein::bus {
 
-inline CLI::Validator NumberCheck(double least, double most, const std::string& wanted, bool without_least = false) {
+inline CLI::Validator NumberCheck(double least, double most, const std::string& wanted,
+                                  bool without_least = false) {
   const auto check = [=](const std::string& text) -> std::string {
     double number = 0;
     if (CLI::detail::lexical_cast(text, number) && number >= least && number <= most &&
