@@ -93,7 +93,7 @@ void Describe(Archive& archive, Stamp& stamp) {
 
 namespace {
 
-// That of a recording of 2 GB takes a hundredth of it.
+// One of this log has its stamp, and still may be of any size when it is damaged.
 constexpr std::uintmax_t kLargestIndexBytes = 256 << 20;
 
 std::string EncodedStamp(Stamp stamp) {

@@ -118,26 +118,37 @@ class Recorded:
         return f"{self.last - self.first + 1 - self.count} of {self.count}" if self.count else "nothing recorded"
 
 
-def fly(options, folder):
+def start_all(started, programs, folder, uavs, url, page_port):
+    """Starts all processes of a fleet, with their recording in `folder`, and puts them into `started` by name as it goes."""
     scenario = folder / "scenario.json"
-    scenario.write_text(json.dumps(scenario_of(options.uavs)))
-    url = f"udpm://239.255.76.67:{LCM_PORT}?ttl=0"
+    scenario.write_text(json.dumps(scenario_of(uavs)))
     with_scenario = ["--scenario", str(scenario)]
     commands = {
         "flight-recorder": ["--folder", str(folder), "--split-mb", "1000000", "--quota-gb", "1000", *with_scenario],
-        "web-bridge": ["--port", str(PAGE_PORT), "--web", str(ROOT / "web/dist")],
+        "web-bridge": ["--port", str(page_port), "--web", str(ROOT / "web/dist")],
         "collision-monitor": with_scenario,
         "formation-controller": with_scenario,
         "fleet-simulator": with_scenario,
     }
+    for name, arguments in commands.items():
+        with open(folder / f"{name}.txt", "wb") as output:
+            started[name] = subprocess.Popen([str(programs / name), "--lcm-url", url, *arguments], stdout=output, stderr=output)
+
+
+def end_all(started):
+    """Each hears the end of those before it: the recorder last."""
+    for name in reversed(list(started)):
+        started[name].terminate()
+        started[name].wait(30)
+
+
+def fly(options, folder):
+    url = f"udpm://239.255.76.67:{LCM_PORT}?ttl=0"
     started = {}
     try:
-        for name, arguments in commands.items():
-            with open(folder / f"{name}.txt", "wb") as output:
-                started[name] = subprocess.Popen([str(options.build / "bin" / name), "--lcm-url", url, *arguments],
-                                                 stdout=output, stderr=output)
+        start_all(started, options.build / "bin", folder, options.uavs, url, PAGE_PORT)
         deadline = time.monotonic() + START_TIMEOUT_S
-        while missing := set(commands) - heard():
+        while missing := set(started) - heard():
             if time.monotonic() > deadline:
                 raise SystemExit(f"not heard within {START_TIMEOUT_S} s: {', '.join(missing)}; see {folder}")
             time.sleep(0.2)
@@ -156,10 +167,7 @@ def fly(options, folder):
             also.wait()
         rows = [(one.name, 100 * (one.cpu_s() - one.began_s) / passed_s, one.memory_mb()) for one in processes]
     finally:
-        for name in ("fleet-simulator", "formation-controller", "collision-monitor", "web-bridge", "flight-recorder"):
-            if name in started:
-                started[name].terminate()
-                started[name].wait(30)
+        end_all(started)
     return rows
 
 

@@ -167,7 +167,7 @@ class CutOffTest : public HostsTest, public ::testing::WithParamInterface<std::s
 
 TEST_P(CutOffTest, GoesOnWhenItIsBack) {
   CutOff();
-  // Uplinks are lost that nobody can tell of: the UAVs alone know.
+  // What is tried is a cut that is longer than it takes to call a link lost.
   std::this_thread::sleep_for(6s);
   Restore();
   EXPECT_TRUE(LinksAre(link_status_t::LINK_UP, 15s));

@@ -20,7 +20,7 @@ import urllib.request
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/bench"))
 
-from fleet_load import COMMAND_KEY, STATE_KEY, Process, children_of, scenario_of  # noqa: E402
+from fleet_load import COMMAND_KEY, STATE_KEY, Process, children_of, end_all, start_all  # noqa: E402
 from long_log import HEADER  # noqa: E402
 
 LCM_PORT, REPLAY_LCM_PORT, PAGE_PORT, REPLAY_PAGE_PORT = 7692, 7693, 8192, 8193
@@ -74,32 +74,19 @@ def late_commands(logs):
 
 
 def fly(options, folder):
-    scenario = folder / "scenario.json"
-    scenario.write_text(json.dumps(scenario_of(options.uavs)))
     programs = options.build / "bin"
-    common = ["--lcm-url", url_of(LCM_PORT)]
-    with_scenario = ["--scenario", str(scenario)]
-    commands = {
-        "flight-recorder": ["--folder", str(folder), "--split-mb", "1000000", "--quota-gb", "1000", *with_scenario],
-        "web-bridge": ["--port", str(PAGE_PORT), "--web", str(ROOT / "web/dist")],
-        "collision-monitor": with_scenario,
-        "formation-controller": with_scenario,
-        "fleet-simulator": with_scenario,
-    }
     started, problems, samples = {}, [], {}
     try:
-        for name, arguments in commands.items():
-            with open(folder / f"{name}.txt", "wb") as output:
-                started[name] = subprocess.Popen([str(programs / name), *common, *arguments], stdout=output, stderr=output)
+        start_all(started, programs, folder, options.uavs, url_of(LCM_PORT), PAGE_PORT)
         await_places(PAGE_PORT, options.uavs, 60)
         processes = [Process(name, child.pid) for name, child in started.items()]
         processes += [Process("lcm-logger", pid) for pid in children_of(started["flight-recorder"].pid)]
         # The last ones are over before the flight is.
         drops = max(1, int((options.minutes - 1) * options.drops_a_minute))
         report = open(folder / "drops.json", "wb")
-        dropper = subprocess.Popen([str(programs / "skein"), *common, "drops", "--random", "--count", str(drops), "--rate",
-                                    str(options.drops_a_minute), "--seed", str(options.seed), "--shortest", "6", "--longest", "40",
-                                    "--json"], stdout=report, stderr=subprocess.DEVNULL)
+        dropper = subprocess.Popen([str(programs / "skein"), "--lcm-url", url_of(LCM_PORT), "drops", "--random", "--count", str(drops),
+                                    "--rate", str(options.drops_a_minute), "--seed", str(options.seed), "--shortest", "6",
+                                    "--longest", "40", "--json"], stdout=report, stderr=subprocess.DEVNULL)
         began = time.monotonic()
         while (left_s := began + 60 * options.minutes - time.monotonic()) > 0:
             if sys.stderr.isatty():
@@ -115,10 +102,7 @@ def fly(options, folder):
         time.sleep(1)
         end = places(PAGE_PORT)
     finally:
-        for name in reversed(commands):
-            if name in started:
-                started[name].terminate()
-                started[name].wait(30)
+        end_all(started)
     return samples, end, problems
 
 
