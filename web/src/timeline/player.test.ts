@@ -30,7 +30,8 @@ function open(more: Partial<PlaybackMessage> = {}) {
       return new Promise<Outcome>((resolve) => answers.push(resolve));
     },
   } as unknown as Commands;
-  const api = { getJson: () => Promise.resolve({ progress: 0 }) } as unknown as Api;
+  const getJson = vi.fn(() => Promise.resolve({ progress: 0 }));
+  const api = { getJson } as unknown as Api;
   store.connection.value = { kind: "open" };
   const player = new Player(store, commands, api);
   const say = (message: Partial<PlaybackMessage>) => {
@@ -42,7 +43,7 @@ function open(more: Partial<PlaybackMessage> = {}) {
     await Promise.resolve();
     await Promise.resolve();
   };
-  return { store, player, asked, say, answer };
+  return { store, player, asked, say, answer, getJson };
 }
 
 beforeEach(() => {
@@ -134,6 +135,17 @@ test.each([true, false])("after a lost connection it goes on where it was; openi
     { action: "loop", loop: [40, 90] },
     { action: "play" },
   ]);
+});
+
+test("the outline is asked for with each connection, not when one is lost: the next bridge may not have the recording", () => {
+  const { store, getJson } = open();
+  const before = getJson.mock.calls.length;
+  store.connection.value = { kind: "waiting", attempt: 1, retry_at_ms: 0 };
+  store.connection.value = { kind: "connecting" };
+  expect(getJson).toHaveBeenCalledTimes(before);
+  store.connection.value = { kind: "open" };
+  expect(getJson).toHaveBeenCalledTimes(before + 1);
+  expect(getJson).toHaveBeenLastCalledWith("api/recordings/a.lcm", expect.anything());
 });
 
 test("while nothing plays it asks for what changes nothing, so that a dead link is noticed", () => {

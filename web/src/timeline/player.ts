@@ -37,11 +37,14 @@ export class Player {
     private readonly commands: Commands,
     private readonly api: Api,
   ) {
-    // The outline, when there is a connection and a name, and again when the recording has grown.
+    // The outline: when there is a name, with each new connection, and when the recording has grown.
+    const connections = signal(0);
+    effect(() => {
+      if (this.store.connection.value.kind === "open") connections.value = connections.peek() + 1;
+    });
     const due = computed(() => {
-      const open = this.store.connection.value.kind === "open";
       const duration_s = this.store.playback.value?.duration_s ?? 0;
-      return open ? `${this.name.value}/${Math.floor(duration_s / kGrown_s)}` : this.name.value;
+      return `${this.name.value}/${connections.value}/${Math.floor(duration_s / kGrown_s)}`;
     });
     effect(() => {
       void due.value;
