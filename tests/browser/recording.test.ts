@@ -51,9 +51,8 @@ test("with flight-recorder on the bus, the time and the size of the recording ar
 
 test("a marker is put by keyboard alone, and all can read it", async () => {
   explain(station);
-  await ada.page.keyboard.press("k");
-  await ada.page.getByLabel("Marker", { exact: true }).waitFor();
-  await ada.page.keyboard.type("Gusts from here on");
+  // Typed on at once: no letter may be lost, or taken for a shortcut.
+  await ada.page.keyboard.type("kGusts from here on");
   await ada.page.keyboard.press("Enter");
   await ada.page.getByText("Put: Gusts from here on").waitFor();
   await events(ada).getByText("Gusts from here on").waitFor();

@@ -1,5 +1,5 @@
 import { useSignal } from "@preact/signals";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { useId, useLayoutEffect, useRef } from "preact/hooks";
 import type { Commands } from "../link/commands";
 import type { RecordingStatus } from "../link/messages";
 import { CommandButton } from "../panels/command_button";
@@ -110,7 +110,8 @@ function MarkerForm({ commands }: { commands: Commands }) {
   const form = useRef<HTMLFormElement>(null);
   const field = useRef<HTMLInputElement>(null);
   const id = useId();
-  useEffect(() => {
+  // Not an effect after painting: what is typed until then would be shortcuts.
+  useLayoutEffect(() => {
     field.current?.focus();
   }, []);
   const problem = markerProblem(text.value);

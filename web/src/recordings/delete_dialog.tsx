@@ -1,5 +1,5 @@
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import { why_no_command } from "../control/control";
 import type { ListedRecording } from "../link/recording_messages";
 import type { Station } from "../shell/station";
@@ -26,7 +26,7 @@ export function DeleteDialog({ station, recording, close }: DeleteDialogProps) {
   const dialog = useRef<HTMLDialogElement>(null);
   const busy = useSignal(false);
   const refusal = useSignal("");
-  useEffect(() => {
+  useLayoutEffect(() => {
     dialog.current?.showModal();
   }, []);
   const remove = async () => {

@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
-import { useEffect, useId, useRef } from "preact/hooks";
+import { useId, useLayoutEffect, useRef } from "preact/hooks";
 
 interface PopoverProps {
   label: string;
@@ -15,7 +15,7 @@ export function Popover({ label, button, children, ...props }: PopoverProps) {
   const open = useSignal(false);
   const root = useRef<HTMLDivElement>(null);
   const id = useId();
-  useEffect(() => {
+  useLayoutEffect(() => {
     if (!open.value) return;
     const close = (event: Event) => {
       if (event.target instanceof Node && root.current?.contains(event.target)) return;

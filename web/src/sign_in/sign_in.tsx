@@ -1,5 +1,5 @@
 import { useSignal } from "@preact/signals";
-import { useEffect, useRef } from "preact/hooks";
+import { useLayoutEffect, useRef } from "preact/hooks";
 import type { Session } from "./session";
 import "./sign_in.css";
 
@@ -8,7 +8,7 @@ export function SignIn({ session }: { session: Session }) {
   const problem = useSignal("");
   const busy = useSignal(false);
   const field = useRef<HTMLInputElement>(null);
-  useEffect(() => field.current?.focus(), []);
+  useLayoutEffect(() => field.current?.focus(), []);
   const signIn = async () => {
     busy.value = true;
     problem.value = await session.signIn(field.current?.value.trim() ?? "");
