@@ -147,6 +147,11 @@ typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Messa
     stream.delivered = false;
   }
   if (stream.delivered || message.chunk_count != stream.chunk_count) return found;
+  if (stream.chunk_count == 1) {  // nothing to put together: no copy
+    stream.delivered = true;
+    handler_(message, 0);
+    return found;
+  }
   if (stream.chunks.emplace(message.chunk, message).second) stream.items += Traits::Items(message).size();
   if (stream.items > kMostItems) {
     stream.chunks.clear();

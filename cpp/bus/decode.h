@@ -21,15 +21,21 @@ inline constexpr std::size_t kMaxEncodedBytes<path_t> = 4 * 1024 * 1024;
 template <>
 inline constexpr std::size_t kMaxEncodedBytes<path_command_t> = 4 * 1024 * 1024;
 
-/// The message in `data`, or none when the bytes are not exactly one message of this type. Time and memory
-/// are bounded by `size`, which may be anything: LCM 1.3.1 hands on a datagram of 8 bytes as one of
-/// 4294967282.
+/// Makes `message` what is in `data`, in the memory that it has. False when the bytes are not exactly one
+/// message of this type: then it may be anything. Time and memory are bounded by `size`, which may be
+/// anything too: LCM 1.3.1 hands on a datagram of 8 bytes as one of 4294967282.
+template <typename Message>
+bool DecodeInto(Message& message, const void* data, std::size_t size) {
+  if (size > kMaxEncodedBytes<Message>) return false;
+  const int length = static_cast<int>(size);
+  return message.decode(data, 0, length) == length;
+}
+
+/// The message in `data`, or none.
 template <typename Message>
 std::optional<Message> Decode(const void* data, std::size_t size) {
-  if (size > kMaxEncodedBytes<Message>) return std::nullopt;
   Message message;
-  const int length = static_cast<int>(size);
-  if (message.decode(data, 0, length) != length) return std::nullopt;
+  if (!DecodeInto(message, data, size)) return std::nullopt;
   return message;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -27,9 +27,7 @@ bool NotNegative(double value) { return Within(value, 0, kLargest); }
 bool NotNegativeOrNone(double value) { return NotNegative(value) || value == -1; }
 bool Angle(double value) { return Within(value, -std::numbers::pi, std::numbers::pi); }
 
-bool Numbers(std::initializer_list<double> values) {
-  return std::all_of(values.begin(), values.end(), Number);
-}
+bool Numbers(std::same_as<double> auto... values) { return (Number(values) && ...); }
 
 bool Time(std::int64_t utime) { return utime >= 0 && utime <= kLargestTime; }
 bool Sequence(std::int64_t number) { return number >= 0 && number <= kLargestTime; }
@@ -98,29 +96,29 @@ bool ValidItem(const vehicle_info_t& info) {
 
 bool ValidItem(const vehicle_state_t& state) {
   return Time(state.utime) && Id(state.id) &&
-         Numbers(
-             {state.east_m, state.north_m, state.up_m, state.speed_m_s, state.course_rad, state.climb_rad}) &&
+         Numbers(state.east_m, state.north_m, state.up_m, state.speed_m_s, state.course_rad,
+                 state.climb_rad) &&
          Sequence(state.command_session_id) && Sequence(state.command_sequence);
 }
 
 bool ValidItem(const vehicle_command_t& command) {
   return Id(command.id) && Sequence(command.sequence) &&
-         Numbers({command.speed_input_m_s, command.course_input_rad, command.climb_input_rad,
-                  command.setpoint_speed_m_s, command.setpoint_climb_rad, command.setpoint_acceleration_m_s2,
-                  command.setpoint_course_rate_rad_s, command.setpoint_climb_rate_rad_s}) &&
+         Numbers(command.speed_input_m_s, command.course_input_rad, command.climb_input_rad,
+                 command.setpoint_speed_m_s, command.setpoint_climb_rad, command.setpoint_acceleration_m_s2,
+                 command.setpoint_course_rate_rad_s, command.setpoint_climb_rate_rad_s) &&
          Angle(command.setpoint_course_rad);
 }
 
 bool ValidItem(const slot_status_t& slot) {
-  return Id(slot.vehicle_id) && Numbers({slot.slot_east_m, slot.slot_north_m, slot.slot_up_m,
-                                         slot.forward_error_m, slot.left_error_m, slot.up_error_m});
+  return Id(slot.vehicle_id) && Numbers(slot.slot_east_m, slot.slot_north_m, slot.slot_up_m,
+                                        slot.forward_error_m, slot.left_error_m, slot.up_error_m);
 }
 
 bool ValidItem(const vehicle_link_t& link) {
   return Id(link.id) && OneOf(link.downlink, link_status_t::LINK_UNKNOWN) &&
          OneOf(link.uplink, link_status_t::LINK_UNKNOWN) && NotNegativeOrNone(link.downlink_age_s) &&
          NotNegativeOrNone(link.uplink_age_s) &&
-         Numbers({link.estimated_east_m, link.estimated_north_m, link.estimated_up_m}) &&
+         Numbers(link.estimated_east_m, link.estimated_north_m, link.estimated_up_m) &&
          NotNegative(link.horizontal_uncertainty_m) && NotNegative(link.vertical_uncertainty_m);
 }
 
@@ -132,22 +130,22 @@ bool ValidItem(const vehicle_proximity_t& vehicle) {
 }
 
 bool ValidItem(const path_piece_t& piece) {
-  return Positive(piece.length_m) && Numbers({piece.start_east_m, piece.start_north_m, piece.start_course_rad,
-                                              piece.start_curvature_per_m, piece.end_curvature_per_m});
+  return Positive(piece.length_m) && Numbers(piece.start_east_m, piece.start_north_m, piece.start_course_rad,
+                                             piece.start_curvature_per_m, piece.end_curvature_per_m);
 }
 
 bool ValidItem(const path_profile_t& knot) {
-  return Numbers({knot.arc_m, knot.altitude_m, knot.up_slope, knot.up_slope_rate_per_m,
-                  knot.speed_slope_per_s, knot.speed_slope_rate_per_m_s}) &&
+  return Numbers(knot.arc_m, knot.altitude_m, knot.up_slope, knot.up_slope_rate_per_m, knot.speed_slope_per_s,
+                 knot.speed_slope_rate_per_m_s) &&
          Positive(knot.planned_speed_m_s);
 }
 
 bool ValidItem(const waypoint_t& waypoint) {
-  return Numbers(
-      {waypoint.east_m, waypoint.north_m, waypoint.up_m, waypoint.speed_m_s, waypoint.turn_radius_m});
+  return Numbers(waypoint.east_m, waypoint.north_m, waypoint.up_m, waypoint.speed_m_s,
+                 waypoint.turn_radius_m);
 }
 
-bool ValidItem(const slot_t& slot) { return Numbers({slot.forward_m, slot.left_m, slot.up_m}); }
+bool ValidItem(const slot_t& slot) { return Numbers(slot.forward_m, slot.left_m, slot.up_m); }
 bool ValidItem(const parameter_t& parameter) { return Text(parameter.name) && Number(parameter.value); }
 
 template <typename Items>
@@ -176,8 +174,8 @@ bool ValidRequest(const Command& command) {
 /// So much of a formation that nothing breaks.
 bool Harmless(const formation_t& formation) {
   return Time(formation.utime) && Text(formation.name) && Text(formation.control) && Text(formation.shape) &&
-         Numbers({formation.spacing_m, formation.lead_m, formation.radius_m, formation.height_m,
-                  formation.d_mod_m, formation.advisory_tau_s, formation.caution_tau_s}) &&
+         Numbers(formation.spacing_m, formation.lead_m, formation.radius_m, formation.height_m,
+                 formation.d_mod_m, formation.advisory_tau_s, formation.caution_tau_s) &&
          ValidItems(formation.parameters) && ValidItems(formation.slots);
 }
 
@@ -247,9 +245,9 @@ bool Valid(const formation_status_t& status) {
   return Time(status.utime) && Id(status.formation_id) && Sequence(status.tick) &&
          OneOf(status.mode, formation_status_t::MODE_WAITING) && Time(status.mode_utime) &&
          Time(status.mode_end_utime) && Text(status.mode_text) &&
-         Numbers({status.leader_east_m, status.leader_north_m, status.leader_up_m, status.leader_speed_m_s,
-                  status.leader_course_rad, status.leader_climb_rad, status.leader_arc_m,
-                  status.avoidance_up_m, status.avoidance_rate_m_s, status.avoidance_target_m}) &&
+         Numbers(status.leader_east_m, status.leader_north_m, status.leader_up_m, status.leader_speed_m_s,
+                 status.leader_course_rad, status.leader_climb_rad, status.leader_arc_m,
+                 status.avoidance_up_m, status.avoidance_rate_m_s, status.avoidance_target_m) &&
          Sequence(status.path_revision) && Chunk(status.chunk, status.chunk_count) &&
          ValidItems(status.slots) && Unique(status.slots, &slot_status_t::vehicle_id);
 }
@@ -274,7 +272,7 @@ bool Valid(const heartbeat_t& heartbeat) {
 
 bool Valid(const link_command_t& command) {
   return ValidRequest(command) && OneOf(command.mode, link_command_t::MODE_RESTORED) &&
-         Numbers({command.delay_s, command.jitter_s, command.loss, command.duration_s}) &&
+         Numbers(command.delay_s, command.jitter_s, command.loss, command.duration_s) &&
          Time(command.start_utime);
 }
 

@@ -22,10 +22,13 @@ void FleetTable::Take(const fleet_state_t& chunk, bus::Utime now) {
 
 void FleetTable::Take(std::int32_t formation_id, const std::vector<slot_status_t>& slots) {
   RemoveFormation(formation_id);
+  if (slots.empty()) return;
+  std::vector<std::int32_t>& members = members_[formation_id];
   for (const slot_status_t& slot : slots) {
     FleetRow& row = rows_[slot.vehicle_id];
     row.formation_id = formation_id;
     row.slot = slot;
+    members.push_back(slot.vehicle_id);
   }
 }
 
@@ -50,6 +53,7 @@ bool FleetTable::Take(const link_status_t& chunk) {
 }
 
 void FleetTable::StartAnew() {
+  members_.clear();
   for (auto& [id, row] : rows_) {
     FleetRow known;
     known.info = row.info;
@@ -58,11 +62,15 @@ void FleetTable::StartAnew() {
 }
 
 void FleetTable::RemoveFormation(std::int32_t formation_id) {
-  for (auto& [id, row] : rows_) {
-    if (row.formation_id != formation_id) continue;
-    row.formation_id = 0;
-    row.slot.reset();
+  const auto formation = members_.find(formation_id);
+  if (formation == members_.end()) return;
+  for (const std::int32_t id : formation->second) {
+    const auto row = rows_.find(id);
+    if (row == rows_.end() || row->second.formation_id != formation_id) continue;
+    row->second.formation_id = 0;
+    row->second.slot.reset();
   }
+  members_.erase(formation);
 }
 
 }  // namespace skein::recording

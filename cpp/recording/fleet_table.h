@@ -46,6 +46,7 @@ class FleetTable {
 
  private:
   std::map<std::int32_t, FleetRow> rows_;
+  std::map<std::int32_t, std::vector<std::int32_t>> members_;  ///< of each formation, as it told last
 };
 
 }  // namespace skein::recording

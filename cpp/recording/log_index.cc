@@ -1,9 +1,11 @@
 #include "recording/log_index.h"
 
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "bus/channels.h"
@@ -54,13 +56,22 @@ class Indexer {
   void Hear(const event_t& event);
   void Hear(const alarm_list_t& list);
   IndexedFlight& Flight();
+  struct Channel {
+    Handler handler{};                   ///< of one of Skein's own
+    std::optional<std::size_t> place{};  ///< in the index, once there was a message on it
+  };
+  struct Hash : std::hash<std::string_view> {
+    using is_transparent = void;
+  };
+  using Channels = std::unordered_map<std::string, Channel, Hash, std::equal_to<>>;
+  Channels::value_type& Find(std::string_view name);
   /// What a message is good for, and hears it.
   struct Verdict {
     bool known = false;  ///< of a type of Skein's, or on a channel of its own
     bool good = true;    ///< as far as we know
   };
-  Verdict Judge(const LogEvent& event) const;
-  void Count(const LogEvent& event, Verdict verdict);
+  static Verdict Judge(const LogEvent& event, const Channel& channel);
+  void Count(const LogEvent& event);
   void TellDamage(std::uint64_t offset, std::uint64_t bytes, std::string reason, bus::Utime utime);
 
   LogIndex& index_;
@@ -68,8 +79,7 @@ class Indexer {
   LogClock clock_;
   bus::Utime now_ = 0;
   std::uint64_t offset_ = 0;  ///< of the event that is being read
-  std::map<std::string, Handler, std::less<>> handlers_;
-  std::map<std::string, std::size_t, std::less<>> channels_;  ///< places in the index
+  Channels channels_;
   FleetTable fleet_;
   History history_;
   std::int64_t roster_session_ = 0;
@@ -82,10 +92,11 @@ Indexer::Indexer(LogIndex& index) : index_(index), held_(index) { KnowAll(); }
 
 template <typename Message>
 void Indexer::Know(const char* name, std::function<void(const Message&)> handler) {
-  handlers_[name] = [handler = std::move(handler)](const LogEvent& event) {
-    const auto message = bus::Decode<Message>(event.data.data(), event.data.size());
-    if (!message || !bus::Valid(*message)) return false;
-    handler(*message);
+  channels_[name].handler = [handler = std::move(handler),
+                             message = Message{}](const LogEvent& event) mutable {
+    if (!bus::DecodeInto(message, event.data.data(), event.data.size())) return false;
+    if (!bus::Valid(message)) return false;
+    handler(message);
     return true;
   };
 }
@@ -161,24 +172,26 @@ void Indexer::Hear(const alarm_list_t& list) {
   }
 }
 
-Indexer::Verdict Indexer::Judge(const LogEvent& event) const {
-  const auto handler = handlers_.find(event.channel);
-  if (handler != handlers_.end()) return {true, handler->second(event)};
+Indexer::Verdict Indexer::Judge(const LogEvent& event, const Channel& channel) {
+  if (channel.handler) return {true, channel.handler(event)};
   const MessageType* type = TypeOf(event.data);
   return {type != nullptr, !type || type->is_good(event.data)};
 }
 
-void Indexer::Count(const LogEvent& event, Verdict verdict) {
-  auto place = channels_.find(event.channel);
-  if (place == channels_.end()) {
-    const bool too_many = channels_.size() >= kMostChannels;
-    const std::string name = too_many ? "(others)" : std::string(event.channel);
-    place = channels_.emplace(name, index_.channels.size()).first;
-    if (place->second == index_.channels.size()) {
-      index_.channels.push_back({.name = name, .first = now_});
-    }
+Indexer::Channels::value_type& Indexer::Find(std::string_view name) {
+  const auto known = channels_.find(name);
+  if (known != channels_.end()) return *known;
+  return *channels_.try_emplace(channels_.size() < kMostChannels ? std::string(name) : "(others)").first;
+}
+
+void Indexer::Count(const LogEvent& event) {
+  auto& [name, channel] = Find(event.channel);
+  const Verdict verdict = Judge(event, channel);
+  if (!channel.place) {
+    channel.place = index_.channels.size();
+    index_.channels.push_back({.name = name, .first = now_});
   }
-  ChannelCount& count = index_.channels[place->second];
+  ChannelCount& count = index_.channels[*channel.place];
   ++count.count;
   count.bytes += static_cast<std::int64_t>(event.data.size());
   count.undecodable += verdict.good ? 0 : 1;
@@ -202,7 +215,7 @@ void Indexer::Take(const LogEvent& event) {
   if (index_.events++ == 0) index_.first = now_;
   index_.last = now_;
   if (clock_.shift() != shift) TellDamage(offset_, 0, "the clock leaps here", now_);
-  Count(event, Judge(event));
+  Count(event);
   if (now_ < next_look_) return;
   next_look_ = now_ + kLookPeriod;
   const bus::Utime start = index_.flights.empty() ? 0 : index_.flights.back().start_utime;
