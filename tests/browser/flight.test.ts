@@ -144,7 +144,7 @@ test("the page fits its window in every size and theme, without scrolling", asyn
       expect(overflow).toEqual({ page: [0, 0], table: [0, 0] });
     }
   }
-  await screen.page.setViewportSize({ width: 1280, height: 720 });
+  await screen.resize(1280, 720);
 });
 
 test("axe finds no barrier in either theme", async () => {

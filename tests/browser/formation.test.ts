@@ -32,8 +32,10 @@ async function previewed(): Promise<string> {
 
 /** In the middle of a slot's disc, on the page. */
 async function slotAt(id: number): Promise<{ x: number; y: number }> {
-  const box = await screen.page.locator(kCanvas).boundingBox();
-  const seen = await screen.symbol(id, kCanvas);
+  const { box, seen } = await screen.atRest(async () => ({
+    box: await screen.page.locator(kCanvas).boundingBox(),
+    seen: await screen.symbol(id, kCanvas),
+  }));
   if (box === null || seen === null) throw new Error(`the slot of UAV${id} is not to be seen`);
   return { x: box.x + seen.x, y: box.y + seen.y };
 }
@@ -88,7 +90,7 @@ test("another shape and spacing are flown ahead before they can be applied", asy
   await screen.page.getByLabel("Time that is shown on the map").fill("20");
   await screen.picture("formation-preview", 1280, 720, "dark");
   await screen.picture("formation-preview", 1920, 1080, "light");
-  await screen.page.setViewportSize({ width: 1280, height: 720 });
+  await screen.resize(1280, 720);
 });
 
 test("a slot dragged into another's cylinder is named, and Apply is blocked until that is overridden", async () => {
@@ -109,7 +111,7 @@ test("a slot dragged into another's cylinder is named, and Apply is blocked unti
   expect(await apply().isDisabled()).toBe(true);
   await screen.picture("formation-conflict", 1280, 720, "dark");
   await screen.picture("formation-conflict", 1920, 1080, "light");
-  await screen.page.setViewportSize({ width: 1280, height: 720 });
+  await screen.resize(1280, 720);
   const override = screen.page.getByRole("checkbox", { name: "Apply all the same" });
   await override.check();
   expect(await apply().isEnabled()).toBe(true);

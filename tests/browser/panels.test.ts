@@ -125,7 +125,7 @@ test("on a tablet, upright or not, nothing is out of reach", async () => {
 
 test("panels that were drawn as large as on a large screen leave room for the map on a small one", async () => {
   const { page } = screen;
-  await page.setViewportSize({ width: 1280, height: 720 });
+  await screen.resize(1280, 720);
   const draw = async (label: string, dx: number, dy: number) => {
     const box = await page.getByRole("separator", { name: label }).boundingBox();
     if (box === null) throw new Error(`no ${label}`);

@@ -56,22 +56,11 @@ async function middleOf(number: number): Promise<[number, number]> {
 }
 
 /** The same once the map has come to rest: what is grabbed must still be there. */
-async function restOf(number: number): Promise<[number, number]> {
-  let rest = await middleOf(number);
-  await until(async () => {
-    const before = rest;
-    await screen.page.evaluate(
-      () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
-    );
-    rest = await middleOf(number);
-    expect(rest).toEqual(before);
-  });
-  return rest;
-}
+const restOf = (number: number) => screen.atRest(() => middleOf(number));
 
 /** A picture with the whole path on the map. */
 async function look(name: string, width: number, height: number, theme: "dark" | "light"): Promise<void> {
-  await screen.page.setViewportSize({ width, height });
+  await screen.resize(width, height);
   await screen.page.emulateMedia({ colorScheme: theme });
   const fit = tool("Fit");
   if (await fit.isVisible()) await fit.click();

@@ -246,13 +246,32 @@ export class Screen {
 
   /** Shows the fleet in a window of this size, in this theme. */
   async show(width: number, height: number, theme: "dark" | "light"): Promise<void> {
-    await this.page.setViewportSize({ width, height });
+    await this.resize(width, height);
     await this.page.emulateMedia({ colorScheme: theme });
     await this.page.waitForFunction((wanted) => document.documentElement.dataset["theme"] === wanted, theme);
     // Where something is being typed it would only be one more letter.
     if (!(await this.page.evaluate(() => document.activeElement instanceof HTMLInputElement)))
       await this.page.keyboard.press("f");
     await this.nextFrames();
+  }
+
+  /** Makes the window this large, and waits for the page to take that on. */
+  async resize(width: number, height: number): Promise<void> {
+    await this.page.setViewportSize({ width, height });
+    await this.page.waitForFunction((size) => `${innerWidth} ${innerHeight}` === size, `${width} ${height}`);
+    await this.nextFrames();
+  }
+
+  /** What `read` gives when it has come to rest: the same again two frames later. */
+  async atRest<T>(read: () => Promise<T>): Promise<T> {
+    let rest = await read();
+    await until(async () => {
+      const before = rest;
+      await this.nextFrames();
+      rest = await read();
+      expect(rest).toEqual(before);
+    });
+    return rest;
   }
 
   /** Waits for two frames of the screen, so that what was changed before is drawn. */
