@@ -25,6 +25,7 @@ constexpr bus::Utime kAllStatusesPeriod = bus::kSecond;
 constexpr bus::Utime kLookPeriod = bus::kSecond / 4;
 // The controller repeats a formation once a second.
 constexpr bus::Utime kFormationGoneAfter = 3 * bus::kSecond;
+constexpr std::size_t kMostNodes = 100;
 constexpr const char* kController = "formation-controller";
 // An endless line is drawn 20 km ahead; it is drawn anew halfway.
 constexpr double kDrawAnewAfter_m = 10'000;
@@ -161,6 +162,12 @@ void BusMirror::Hear(const event_t& event) {
 
 void BusMirror::Hear(const heartbeat_t& heartbeat) {
   if (bus::IsStandby(heartbeat.heartbeat_node)) return;
+  // Whoever can send HEARTBEAT can invent names: who is silent makes room.
+  if (heartbeats_.size() >= kMostNodes && !heartbeats_.contains(heartbeat.heartbeat_node)) {
+    std::erase_if(heartbeats_,
+                  [&](const auto& known) { return Now() - known.second.heard_at >= kSilentAfter; });
+    if (heartbeats_.size() >= kMostNodes) return;
+  }
   Repeated& known = heartbeats_[heartbeat.heartbeat_node];
   known = {ToJson(heartbeat), Now()};
   sink_(TextFrame(Dump(known.shown), "heartbeat/" + heartbeat.heartbeat_node));

@@ -7,7 +7,7 @@
 #include "bridge/history_query.h"
 #include "bridge/json_messages.h"
 #include "bridge/url.h"
-#include "config/scenario.h"
+#include "config/json_reader.h"
 
 namespace skein::bridge {
 namespace {
@@ -281,7 +281,7 @@ void HttpRouter::Command(const HttpRequest& request, std::function<void(HttpResp
   // Where no token is demanded this host's programs may command at any time: they could on the bus, too.
   if (const std::string reason = doorkeeper_.demands_tokens() ? why_not_(request) : ""; !reason.empty())
     return finish({CommandResult::Outcome::kRefused, reason});
-  auto command = nlohmann::json::parse(request.body(), nullptr, false);
+  auto command = config::ParseJson(request.body());
   const auto refuse = [&](const char* reason) { finish({CommandResult::Outcome::kMalformed, reason}); };
   if (!command.is_object()) return refuse("the request is no JSON object");
   if (!command.contains("channel") || !command["channel"].is_string())
@@ -297,7 +297,7 @@ void HttpRouter::Preview(const HttpRequest& request, const Previewer::Gone& gone
     respond(Make(status, kJson, nlohmann::json{{"ok", false}, {"reason", reason}}.dump()));
   };
   if (!backend_.why_no_command.empty()) return refuse(status::conflict, backend_.why_no_command);
-  const auto body = nlohmann::json::parse(request.body(), nullptr, false);
+  const auto body = config::ParseJson(request.body());
   if (!body.is_object()) return refuse(status::bad_request, "the request is no JSON object");
   PreviewRequest wanted;
   try {

@@ -117,7 +117,7 @@ void LiveHub::Introduce(const std::shared_ptr<LiveSession>& session, const Intro
 }
 
 void LiveHub::Hear(const std::shared_ptr<LiveSession>& session, const std::string& text) {
-  json message = json::parse(text, nullptr, false);
+  json message = config::ParseJson(text);
   if (!message.is_object()) message = json::object();
   const json id = message.value("id", json());
   const bool named = id.is_string() || id.is_number();

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "config/json_reader.h"
+
 namespace skein::bridge {
 namespace {
 
@@ -37,7 +39,7 @@ HttpResponse SignIn::Answer(const HttpRequest& request, std::uint16_t port,
     // Who got here is known, or nobody need be.
     return Who(doorkeeper_.Identify(doorkeeper_.SecretOf(request, port)));
   }
-  const auto body = nlohmann::json::parse(request.body(), nullptr, false);
+  const auto body = config::ParseJson(request.body());
   if (!body.is_object() || body.size() != 1 || !body.contains("token") || !body["token"].is_string())
     return make_(status::bad_request, kJson, Reason("the request must be {\"token\": \"...\"}"));
   const auto secret = body["token"].get<std::string>();

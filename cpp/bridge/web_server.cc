@@ -161,20 +161,22 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
   socket.set_option(Tcp::no_delay(true), error);
   beast::tcp_stream stream(std::move(socket));
   beast::flat_buffer buffer(kMaxHeaderBytes + 64 * 1024);
+  std::int64_t waiting = 0;
+  const auto wait = [&] { idle_[waiting = ++last_idle_] = &stream; };
+  const auto work = [&] { idle_.erase(waiting); };
   for (bool keep_alive = true; keep_alive;) {
     http::request_parser<http::string_body> parser;
     parser.header_limit(kMaxHeaderBytes);
     parser.body_limit(kMaxBodyBytes);
     stream.expires_after(kHeaderTime);
-    const std::int64_t idle = ++last_idle_;
-    idle_[idle] = &stream;
+    wait();
     std::tie(error, std::ignore) = co_await http::async_read_header(stream, buffer, parser, kAwait);
-    idle_.erase(idle);
     std::optional<HttpResponse> response;
     if (!error) {
       const bool upgrade = beast::websocket::is_upgrade(parser.get());
       response = router_.TurnAway(parser.get(), caller, upgrade);
       if (!response && upgrade) {
+        work();
         co_await ServeLive(std::move(stream), parser.release());
         co_return;
       }
@@ -187,6 +189,7 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
         std::tie(error, std::ignore) = co_await http::async_read(stream, buffer, parser, kAwait);
       }
     }
+    work();
     const HttpRequest request = parser.release();
     const bool whole = !response && !error;
     if (whole) {
@@ -208,7 +211,9 @@ asio::awaitable<void> WebServer::Serve(Tcp::socket socket, [[maybe_unused]] std:
     // A body that was not read would be taken for the next request.
     keep_alive = whole && request.keep_alive();
     response->keep_alive(keep_alive);
+    wait();
     error = co_await Write(stream, *response, request.method() == http::verb::head);
+    work();
     if (error) co_return;
   }
   co_await Close(stream);

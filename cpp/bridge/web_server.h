@@ -53,7 +53,7 @@ class WebServer {
   HttpRouter router_;
   LiveHub hub_;
   std::vector<std::weak_ptr<LiveSession>> live_;  ///< all on a WebSocket
-  /// Connections of which the next request is awaited, by how long they have said nothing.
+  /// Connections that wait for the other side, the longest first: they give way to newcomers.
   std::map<std::int64_t, boost::beast::tcp_stream*> idle_;
   std::int64_t last_idle_ = 0;
 };

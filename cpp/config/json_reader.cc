@@ -18,6 +18,7 @@ using nlohmann::json;
 
 // Far more than a thousand UAVs need; keeps an endless device from filling the memory.
 constexpr std::size_t kMaxFileBytes = 32u << 20;
+constexpr int kDeepest = 64;
 
 std::string Escaped(std::string_view key) {
   std::string result;
@@ -126,6 +127,16 @@ std::string Shown(double number) {
   text.precision(10);
   text << number;
   return text.str();
+}
+
+json ParseJson(std::string_view text) {
+  bool too_deep = false;
+  const auto keep = [&](int depth, json::parse_event_t, json&) {
+    too_deep |= depth > kDeepest;
+    return !too_deep;
+  };
+  json parsed = json::parse(text, keep, false);
+  return too_deep ? json(json::value_t::discarded) : parsed;
 }
 
 struct Value::Document {

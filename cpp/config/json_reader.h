@@ -28,6 +28,10 @@ std::string Shown(double number);
 /// @param kind what the file is to be, for who names a folder: "a scenario file".
 std::string ReadTextFile(const std::filesystem::path& file, const std::string& kind);
 
+/// What a stranger sent, as JSON; discarded when it is none, or nests more than 64 levels: nlohmann's copies
+/// recurse, and some hundred thousand levels would overflow the stack.
+nlohmann::json ParseJson(std::string_view text);
+
 /// A JSON value that knows its file and its JSON pointer, so that whatever is wrong with it is refused with
 /// both. All readers throw ConfigError when the value is of another type or out of range.
 class Value {

@@ -23,7 +23,7 @@ Viewer::Viewer(RecordingLibrary& library, std::string name, bridge::HelloInfo he
     : library_(library), name_(std::move(name)), hello_(std::move(hello)), send_(std::move(send)) {}
 
 void Viewer::Hear(const std::string& text) {
-  const auto message = nlohmann::json::parse(text, nullptr, false);
+  const auto message = config::ParseJson(text);
   const nlohmann::json id = IdOf(message);
   if (!message.is_object() || message.value("type", nlohmann::json()) != "playback") {
     return Acknowledge(id, "this is a recording: it can be played, but nothing can be commanded");

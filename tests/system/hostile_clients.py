@@ -88,7 +88,7 @@ def endless_message():
 
 
 def deep_json():
-    body = b"[" * 100_000
+    body = b'{"channel":"CMD_LINK","body":' + b"[" * 100_000 + b"]" * 100_000 + b"}"
     with connect() as connection:
         connection.send(b"POST /api/command HTTP/1.1\r\n" + HOST + b"Content-Type: application/json\r\nContent-Length: " +
                         str(len(body)).encode() + b"\r\n\r\n" + body)

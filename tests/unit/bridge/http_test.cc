@@ -227,7 +227,11 @@ TEST_F(HttpTest, RefusesWhatIsNoCommand) {
     EXPECT_EQ(response->status, 400) << body;
     EXPECT_FALSE(json::parse(response->body)["reason"].get<std::string>().empty());
   }
-  EXPECT_EQ(client.Post("/api/command", std::string(200'000, '[')).value().status, 400);
+  const std::string deep(200'000, '[');
+  EXPECT_EQ(client.Post("/api/command", deep).value().status, 400);
+  const std::string whole = deep + std::string(deep.size(), ']');
+  EXPECT_EQ(client.Post("/api/command", R"({"channel":"CMD_LINK","body":)" + whole + "}").value().status,
+            400);
 }
 
 TEST_F(HttpTest, TakesOnlyTheMethodsThatMakeSense) {
@@ -335,6 +339,15 @@ TEST_F(HttpTest, IsThereForANewcomerHoweverManySayNothing) {
   }
   EXPECT_EQ(RawClient(port()).Get("/").value().status, 200);
   EXPECT_TRUE(idle.front()->IsClosed());
+}
+
+TEST_F(HttpTest, IsThereForANewcomerHoweverManySendHalfABody) {
+  std::vector<std::unique_ptr<RawClient>> half;
+  for (int i = 0; i < WebServer::kMaxConnections + 50; ++i) {
+    half.push_back(std::make_unique<RawClient>(port()));
+    half.back()->Send("GET / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 10\r\n\r\n12345");
+  }
+  EXPECT_EQ(RawClient(port()).Get("/").value().status, 200);
 }
 
 TEST_F(HttpTest, SaysWhichPortIsTakenAndHowToChooseAnother) {

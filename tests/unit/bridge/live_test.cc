@@ -151,6 +151,20 @@ TEST(Live, SaysWhatIsWrongWithAMessage) {
   EXPECT_NE(reason(std::string(100'000, '[')).find("no JSON"), std::string::npos);
 }
 
+// Whole JSON, so that it is looked at: nlohmann's copies recurse.
+TEST(Live, RefusesWhatIsNestedTooDeep) {
+  BridgeUnderTest bridge;
+  LiveClient browser(bridge.port());
+  const auto nested = [](std::size_t levels) { return std::string(levels, '[') + std::string(levels, ']'); };
+  for (const std::size_t levels : {std::size_t{100}, std::size_t{400'000}}) {
+    browser.Send(R"({"type":"command","id":)" + nested(levels) + "}");
+    EXPECT_NE(browser.ReadText("ack")["reason"].get<std::string>().find("no JSON"), std::string::npos);
+  }
+  browser.Send(R"({"type":"command","id":"a","channel":"CMD_LINK","body":)" + nested(20) + "}");
+  EXPECT_NE(browser.ReadText("ack")["reason"].get<std::string>().find("must be an object"),
+            std::string::npos);
+}
+
 TEST(Live, LetsABrowserHaveOnlySoManyCommandsWaiting) {
   BridgeUnderTest bridge;
   LiveClient browser(bridge.port());
