@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bus/channels.h"
+#include "bus/text.h"
 
 namespace skein::bus {
 namespace {
@@ -62,7 +63,7 @@ void CommandInbox::Acknowledge(const Request& request, const Answer& answer) {
   ack.session_id = bus_.session_id();
   ack.command_channel = request.channel;
   ack.accepted = answer.accepted;
-  ack.reason = answer.reason;
+  ack.reason = Shortened(answer.reason);
   bus_.Publish(channel::kAck, ack);
 }
 

@@ -3,6 +3,12 @@
 #include "bus/channels.h"
 
 namespace skein::bus {
+namespace {
+
+constexpr std::size_t kMostChannels = 100;
+constexpr std::size_t kLongestChannel = 32;
+
+}  // namespace
 
 CommandOutbox::CommandOutbox(Bus& bus) : bus_(bus) {
   bus_.Subscribe<ack_t>(channel::kAck, [this](const ack_t& ack) { Hear(ack); });
@@ -16,8 +22,11 @@ void CommandOutbox::Repeat(std::int64_t request_id) {
 bool CommandOutbox::Forget(std::int64_t request_id) { return waiting_.erase(request_id) > 0; }
 
 void CommandOutbox::Hear(const ack_t& ack) {
-  // From answers to others, too.
-  addresses_[ack.command_channel] = ack.session_id;
+  // From answers to others, too; but not whatever somebody invents.
+  const bool is_command =
+      ack.command_channel.starts_with("CMD_") && ack.command_channel.size() <= kLongestChannel;
+  if (is_command && (addresses_.size() < kMostChannels || addresses_.contains(ack.command_channel)))
+    addresses_[ack.command_channel] = ack.session_id;
   if (ack.command_session_id != bus_.session_id()) return;
   const auto entry = waiting_.find(ack.command_request_id);
   if (entry == waiting_.end() || entry->second.channel != ack.command_channel) return;

@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include "bus/channels.h"
+#include "bus/text.h"
 
 namespace skein::bus {
 
@@ -15,7 +16,7 @@ void Events::Tell(std::int8_t severity, const std::string& code, const std::stri
   event.code = code;
   event.vehicle_id = about.vehicle_id;
   event.formation_id = about.formation_id;
-  event.text = text;
+  event.text = Shortened(text);
   bus_.Publish(channel::kEvent, event);
   if (!bus_.logs()) return;
   spdlog::log(severity >= event_t::CAUTION ? spdlog::level::warn : spdlog::level::info, "{}: {}", code, text);

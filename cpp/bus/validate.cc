@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bus/text.h"
+
 namespace skein::bus {
 namespace {
 
@@ -18,7 +20,7 @@ namespace {
 constexpr double kLargest = 1e9;
 constexpr std::int64_t kLargestTime = std::int64_t{1} << 62;
 constexpr int kMostChunks = 100'000;
-constexpr std::size_t kLongestText = 4096;
+constexpr std::size_t kLongestNode = 100;
 
 bool Within(double value, double low, double high) { return value >= low && value <= high; }  // false for NaN
 bool Number(double value) { return Within(value, -kLargest, kLargest); }
@@ -263,7 +265,8 @@ bool Valid(const formation_t& formation) {
 }
 
 bool Valid(const heartbeat_t& heartbeat) {
-  return Time(heartbeat.utime) && Name(heartbeat.heartbeat_node) && Text(heartbeat.version) &&
+  return Time(heartbeat.utime) && Name(heartbeat.heartbeat_node) &&
+         heartbeat.heartbeat_node.size() <= kLongestNode && Text(heartbeat.version) &&
          Sequence(heartbeat.session_id) && Time(heartbeat.start_utime) && Sequence(heartbeat.messages_in) &&
          Sequence(heartbeat.messages_out) && Sequence(heartbeat.gaps) && Sequence(heartbeat.undecodable) &&
          Sequence(heartbeat.handler_exceptions) && Sequence(heartbeat.worst_handler_us) &&

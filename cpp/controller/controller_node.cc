@@ -38,6 +38,12 @@ FormationControllerNode::FormationControllerNode(bus::Bus& bus, const Controller
 }
 
 void FormationControllerNode::OnRoster(const fleet_roster_t& roster) {
+  // A roster by itself ends no flight: whoever says that the fleet is another one has to fly it.
+  if (start_utime_ != 0 && roster.session_id != fleet_session_id_) {
+    unflown_roster_ = roster;
+    return;
+  }
+  unflown_roster_.reset();
   for (const vehicle_info_t& info : roster.vehicles) {
     VehicleView& view = fleet_[info.id];
     view.id = info.id;
@@ -81,6 +87,10 @@ void FormationControllerNode::OnLinkStatus(const link_status_t& status) {
 }
 
 void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
+  if (unflown_roster_ && unflown_roster_->session_id == state.session_id) {
+    fleet_session_id_ = state.session_id;
+    OnRoster(*std::exchange(unflown_roster_, std::nullopt));
+  }
   // Which ticks are taken, and when a clock was set, SubscribeChunks has decided. After a jump the leaders go
   // on from where they are: they must neither stand still until a clock comes round again nor be moved by
   // hours at once.
@@ -88,11 +98,15 @@ void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
   // has a false time, or a clock that was set.
   constexpr bus::Utime kLongestGap = 60 * bus::kSecond;
   constexpr bus::Utime kMostAhead = 2 * bus::kSecond;
+  // Leaders do not catch up with a start that is longer ago: no flight is, but a false roster may say so.
+  constexpr bus::Utime kLongestFlight = 24 * 3600 * bus::kSecond;
   const bus::Utime ahead = state.utime - bus_.executor().Now();
   const bool known = tick_utime_ != 0;
   const bool jumped = known && (state.utime <= tick_utime_ || state.utime > tick_utime_ + kLongestGap ||
                                 ahead > clock_ahead_ + kMostAhead);
-  if (jumped) {
+  const bool far_from_start =
+      !known && (state.utime < start_utime_ || state.utime > start_utime_ + kLongestFlight);
+  if (jumped || far_from_start) {
     for (auto& [id, view] : fleet_) view.TakeClock(state.utime);
     for (auto& [id, flight] : flights_) flight.TakeClock(state.utime);
   }

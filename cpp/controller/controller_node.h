@@ -102,10 +102,11 @@ class FormationControllerNode {
 
   FleetPicture fleet_;
   std::map<int, FormationFlight> flights_;
-  std::deque<config::FormationConfig> waiting_;  ///< formations of the scenario that are not started yet
-  std::map<int, VehicleState> held_;             ///< UAVs that are in no formation, and what they hold
-  bus::Utime start_utime_ = 0;                   ///< t = 0 of the scenario; 0: no roster yet
-  std::int64_t fleet_session_id_ = 0;            ///< of FLEET_STATE
+  std::deque<config::FormationConfig> waiting_;   ///< formations of the scenario that are not started yet
+  std::map<int, VehicleState> held_;              ///< UAVs that are in no formation, and what they hold
+  bus::Utime start_utime_ = 0;                    ///< t = 0 of the scenario; 0: no roster yet
+  std::int64_t fleet_session_id_ = 0;             ///< of FLEET_STATE
+  std::optional<fleet_roster_t> unflown_roster_;  ///< of a session whose FLEET_STATE has not been heard
   bus::Utime tick_utime_ = 0;
   bus::Utime clock_ahead_ = 0;  ///< of the fleet's clock: the most that a tick has been ahead of ours
   std::int64_t tick_ = 0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bus/text.h"
 #include "controller/formation_flight.h"
 
 namespace skein::controller {
@@ -12,6 +13,8 @@ namespace {
 // Assembled when everybody is this near its slot, apart again when somebody is this far from it.
 constexpr double kAssembled = 25;
 constexpr double kApart = 60;
+// Of names in a text for people.
+constexpr std::size_t kLongestList = 300;
 
 std::string Distance(double metres) {
   return metres < 1000 ? fmt::format("{:.0f} m", metres) : fmt::format("{:.1f} km", metres / 1000);
@@ -52,6 +55,9 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
     }
     if (!farthest || member.error.norm() > farthest->second.error.norm()) farthest = &entry;
   }
+
+  lost = bus::Shortened(lost, kLongestList);
+  rejoining = bus::Shortened(rejoining, kLongestList);
 
   const AltitudeRamp& body = avoidance_.body();
   if (body.target_m() != climb_to_m_) {
@@ -112,7 +118,7 @@ formation_status_t FormationFlight::Status(std::int64_t tick) const {
   status.mode = mode_;
   status.mode_utime = mode_utime_;
   status.mode_end_utime = mode_end_utime_;
-  status.mode_text = mode_text_;
+  status.mode_text = bus::Shortened(mode_text_);
   const AltitudeOffset& offset = avoidance_.body().now();
   const VehicleState leader = LeaderState(leader_.path(), leader_.arc_m(), offset);
   status.leader_east_m = leader.east_m;

@@ -106,9 +106,10 @@ void LinkWatch::HearObedience(std::int64_t now, const Telemetry& telemetry) {
 }
 
 void LinkWatch::Command(std::int64_t now, std::int64_t session_id) {
-  if (session_id < session_id_) return;
+  // A later one may be a false one that was heard once: silent, it stands in nobody's way.
+  if (session_id < session_id_ && now - last_command_ < times_.lost_us) return;
   // After a pause, or from a new controller, the UAV is given its time anew.
-  if (!unobeyed_since_ || session_id > session_id_ || now - last_command_ >= times_.late_us)
+  if (!unobeyed_since_ || session_id != session_id_ || now - last_command_ >= times_.late_us)
     unobeyed_since_ = now;
   session_id_ = session_id;
   last_command_ = now;

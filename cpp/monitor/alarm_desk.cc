@@ -10,6 +10,7 @@
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/saved_bytes.h"
+#include "bus/text.h"
 
 namespace skein::monitor {
 namespace {
@@ -35,7 +36,7 @@ alarm_t ToMessage(const Alarm& alarm) {
   message.vehicle_id = alarm.condition.vehicle_id;
   message.other_vehicle_id = alarm.condition.other_vehicle_id;
   message.formation_id = alarm.condition.formation_id;
-  message.text = alarm.condition.text;
+  message.text = bus::Shortened(alarm.condition.text);
   message.raised_utime = alarm.raised_utime;
   message.cleared_utime = alarm.ended_utime.value_or(0);
   if (alarm.acknowledged) {

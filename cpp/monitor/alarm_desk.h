@@ -28,6 +28,8 @@ class AlarmDesk {
   void End(const std::string& key);
   /// Keys of alarms that were on before a restart, and have not been raised again yet.
   const std::set<std::string>& unconfirmed() const { return unconfirmed_; }
+  /// Nothing can be heard that would confirm them or not: they have their time from now on.
+  void ConfirmLater() { confirm_by_ = Now() + kConfirm; }
 
   /// Twice the time in which a lost link is found.
   static constexpr bus::Utime kConfirm = 10 * bus::kSecond;

@@ -36,7 +36,10 @@ void ClockWatch::LookAtWallClock(bus::Utime ahead) {
 }
 
 void ClockWatch::Hear(const std::string& node, bus::Utime offset) {
-  if (nodes_.size() >= kMostNodes && !nodes_.contains(node)) return;
+  if (nodes_.size() >= kMostNodes && !nodes_.contains(node)) {
+    std::erase_if(nodes_, [](const auto& known) { return !known.second.alarm; });
+    if (nodes_.size() >= kMostNodes) return;
+  }
   Offset& known = nodes_[node];
   const bus::Utime most = known.alarm ? kMost / 2 : kMost;
   const bool off = std::abs(offset) > most;

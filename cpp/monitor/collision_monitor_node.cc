@@ -70,7 +70,7 @@ CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitor
     : bus_(bus),
       events_(bus),
       alarms_(bus, events_, options.state_file),
-      link_alarms_(alarms_),
+      link_alarms_(alarms_, bus.executor().Now()),
       silence_(bus, alarms_),
       clocks_(bus, alarms_),
       options_((Check(options), options)),

@@ -13,8 +13,14 @@ constexpr const char* kFleetSilent = "fleet_silent";
 
 }  // namespace
 
+LinkAlarms::LinkAlarms(AlarmDesk& alarms, bus::Utime now) : alarms_(alarms) {
+  if (alarms.unconfirmed().contains(kFleetSilent)) heard_ = now - kSilentAfter;
+}
+
 void LinkAlarms::HearFleet(bus::Utime now) {
-  if (heard_ && now - *heard_ >= kExplains) heard_again_ = now;
+  // Where telemetry stutters for long, what is lost is told between two settlings.
+  const bool settled = !heard_again_ || now - *heard_again_ >= 2 * kSettling;
+  if (heard_ && now - *heard_ >= kExplains && settled) heard_again_ = now;
   heard_ = now;
 }
 
@@ -60,12 +66,14 @@ void LinkAlarms::Forget(const WatchedUav& uav) {
 std::optional<Notice> LinkAlarms::Look(bus::Utime now, std::size_t watched) {
   if (!heard_) return std::nullopt;
   const bool silent = now - *heard_ >= kSilentAfter;
+  if (silent) alarms_.ConfirmLater();
   if (silent == silent_since_.has_value()) return std::nullopt;
   if (silent) {
     silent_since_ = *heard_;
-    const std::string text =
-        fmt::format("no telemetry from any of {} UAV{}: the source of FLEET_STATE has fallen silent", watched,
-                    watched == 1 ? "" : "s");
+    // None before the roster has come.
+    const std::string of =
+        watched == 0 ? "" : fmt::format(" from any of {} UAV{}", watched, watched == 1 ? "" : "s");
+    const std::string text = fmt::format("no telemetry{}: the source of FLEET_STATE has fallen silent", of);
     alarms_.Raise({kFleetSilent, AlertLevel::kWarning, text});
     return Notice{event_t::WARNING, kFleetSilent, text, 0, 0};
   }

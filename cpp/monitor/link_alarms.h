@@ -19,7 +19,8 @@ namespace skein::monitor {
 /// each by itself.
 class LinkAlarms {
  public:
-  explicit LinkAlarms(AlarmDesk& alarms) : alarms_(alarms) {}
+  /// A fleet that was silent before a restart is so until it is heard.
+  LinkAlarms(AlarmDesk& alarms, bus::Utime now);
 
   /// FLEET_STATE has come.
   void HearFleet(bus::Utime now);

@@ -44,10 +44,12 @@ SilenceWatch::SilenceWatch(bus::Bus& bus, AlarmDesk& alarms) : bus_(bus), alarms
 
 void SilenceWatch::Look() {
   const bus::Utime now = bus_.executor().Now();
+  std::erase_if(nodes_, [now](const auto& node) {
+    return node.second.times < kKnown && now - node.second.heard >= kSilentAfter;
+  });
   for (const auto& [node, last] : nodes_) {
     const AlarmCondition silence = NodeSilent(node);
     if (now - last.heard >= kSilentAfter) {
-      if (last.times < kKnown) continue;
       alarms_.Raise(silence);
     } else {
       alarms_.End(silence.key);

@@ -10,6 +10,7 @@
 
 #include "bus/channels.h"
 #include "bus/chunks.h"
+#include "bus/text.h"
 #include "bus/validate.h"
 #include "recording/held_messages.h"
 #include "recording/log_clock.h"
@@ -23,16 +24,10 @@ namespace channel = bus::channel;
 constexpr std::uint64_t kPointEveryBytes = 256 * 1024;
 constexpr std::uint64_t kTellEveryBytes = 4u << 20;
 constexpr std::size_t kMostChannels = 10'000;
-constexpr std::size_t kLongestText = 500;
+constexpr std::size_t kLongestListed = 500;
 constexpr bus::Utime kLookPeriod = bus::kSecond / 4;
 
-/// Cut between two characters of UTF-8.
-std::string Cut(const std::string& text) {
-  if (text.size() <= kLongestText) return text;
-  std::size_t end = kLongestText;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end);
-}
+std::string Listed(const std::string& text) { return bus::Shortened(text, kLongestListed); }
 
 class Indexer {
  public:
@@ -151,7 +146,7 @@ void Indexer::Hear(const fleet_roster_t& roster) {
   }
   IndexedFlight& flight = Flight();
   flight.start_utime = roster.start_utime;
-  flight.scenario = Cut(roster.scenario);
+  flight.scenario = Listed(roster.scenario);
   flight.vehicles = std::max(flight.vehicles, roster.num_vehicles);
   if (roster.session_id != roster_session_) fleet_.StartAnew();
   roster_session_ = roster.session_id;
@@ -160,7 +155,7 @@ void Indexer::Hear(const fleet_roster_t& roster) {
 
 void Indexer::Hear(const event_t& event) {
   if (index_.told.size() >= LogIndex::kMostListed) return;
-  index_.told.push_back({now_, offset_, event.severity, Cut(event.code), Cut(event.text)});
+  index_.told.push_back({now_, offset_, event.severity, Listed(event.code), Listed(event.text)});
 }
 
 void Indexer::Hear(const alarm_list_t& list) {
@@ -168,7 +163,7 @@ void Indexer::Hear(const alarm_list_t& list) {
     if (alarm.state == alarm_t::OVER || alarms_.size() >= LogIndex::kMostListed) continue;
     if (!alarms_.emplace(list.session_id, alarm.id).second) continue;
     index_.alarms.push_back(
-        {now_, list.session_id, alarm.id, alarm.severity, Cut(alarm.condition), Cut(alarm.text)});
+        {now_, list.session_id, alarm.id, alarm.severity, Listed(alarm.condition), Listed(alarm.text)});
   }
 }
 

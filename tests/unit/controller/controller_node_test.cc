@@ -373,8 +373,46 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   roster.session_id = 2;
   bus::PublishChunks(station, bus::channel::kFleetRoster, roster);
   executor.Deliver();
+  EXPECT_EQ(restarted.flights().at(1).waypoints().size(), 2u) << "a roster by itself ends no flight";
+  state.utime = executor.Now();
+  state.session_id = 2;
+  bus::PublishChunks(station, bus::channel::kFleetState, state);
+  executor.Deliver();
   EXPECT_TRUE(restarted.flights().at(1).waypoints().empty());
   std::filesystem::remove(options_.state_file);
+}
+
+TEST_F(ControllerNodeTest, DoesNotCatchUpWithAStartThatNoFlightCanHave) {
+  start_utime_ = 1;  // 1970: seven thousand million steps
+  Start();
+  SendRoster();
+  Fly(3);
+  EXPECT_LT(node_->flights().at(1).leader().arc_m(), 50);
+}
+
+TEST_F(ControllerNodeTest, SaysWhatReceiversTakeHoweverLongNamesAre) {
+  Start();
+  fleet_roster_t roster{};
+  roster.utime = executor_.Now();
+  roster.session_id = 1;
+  roster.start_utime = start_utime_;
+  for (const auto& [id, uav] : uavs_)
+    roster.vehicles.push_back(bus::ToMessage(id, std::string(4000, 'x'), VehicleModel(), true));
+  bus::PublishChunks(station_, bus::channel::kFleetRoster, roster);
+  Fly(3);
+  link_status_t links{};
+  links.utime = executor_.Now();
+  links.sequence = 1;
+  for (const int id : {1, 2}) {
+    vehicle_link_t link{};
+    link.id = id;
+    link.downlink = link_status_t::LINK_LOST;
+    links.links.push_back(link);
+  }
+  bus::PublishChunks(station_, bus::channel::kLinkStatus, links);
+  Fly(10);
+  EXPECT_EQ(status_.mode, formation_status_t::MODE_AVOIDING);
+  EXPECT_LT(status_.mode_text.size(), 500u);
 }
 
 TEST_F(ControllerNodeTest, TakesTheScenarioThatANewFlightNames) {

@@ -310,6 +310,25 @@ TEST_F(HeardByHand, ObedienceToAnotherSessionProvesNothing) {
   EXPECT_EQ(watch_.uplink(), LinkState::kLost);
 }
 
+TEST_F(HeardByHand, OneCommandOfAFalseSessionBlindsItForFourSecondsOnly) {
+  std::int64_t sequence = 0;
+  double t = 0;
+  const auto fly = [&](double until, bool obeys) {
+    for (; t < until; t += 0.05) {
+      Command(t);
+      sequence += obeys ? 1 : 0;
+      Hear(t + 0.01, At(t, 50, sequence));
+      Check(t + 0.02);
+    }
+  };
+  fly(5, true);
+  Command(t, 1'000'000);
+  fly(15, true);
+  EXPECT_EQ(watch_.uplink(), LinkState::kUp);
+  fly(20, false);
+  EXPECT_EQ(watch_.uplink(), LinkState::kLost);
+}
+
 TEST_F(HeardByHand, CommandsOfAnOldSessionDoNotCount) {
   Hear(0, At(0));
   Command(0, 5);

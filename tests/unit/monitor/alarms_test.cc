@@ -270,6 +270,61 @@ TEST_F(MonitorAlarms, TellThatTheSourceOfTheFleetIsSilent) {
   EXPECT_EQ(StateOf("fleet_silent"), kEnded);
 }
 
+TEST_F(MonitorAlarms, OfASilentFleetStayWhenTheMonitorStartsAnew) {
+  CollisionMonitorOptions options;
+  options.state_file =
+      std::filesystem::temp_directory_path() / ("skein_monitor_silent_" + std::to_string(::getpid()));
+  Start(options);
+  Run(10);
+  SetLink(3, false);
+  Run(6);
+  fleet_.telemetry = false;
+  Run(4);
+  Acknowledge(Find("fleet_silent")->id);
+  node_.reset();
+  lists_.clear();
+  Start(options);
+  Run(15);
+  EXPECT_EQ(StateOf("fleet_silent"), kAcknowledged);
+  EXPECT_EQ(StateOf("link:3"), kUnacknowledged);
+  fleet_.telemetry = true;
+  Run(2);
+  EXPECT_EQ(StateOf("fleet_silent"), kOver);
+  std::filesystem::remove(options.state_file);
+}
+
+TEST_F(MonitorAlarms, OfALostLinkComeThoughTheTelemetryOfAllStutters) {
+  Start();
+  Run(10);
+  SetLink(3, false);
+  for (int i = 0; i < 5; ++i) {
+    fleet_.telemetry = false;
+    Run(1.6);
+    fleet_.telemetry = true;
+    Run(2.4);
+  }
+  EXPECT_EQ(StateOf("link:3"), kUnacknowledged);
+}
+
+TEST_F(MonitorAlarms, TellOfANodeAfterAHundredInventedOnes) {
+  Start();
+  heartbeat_t heartbeat{};
+  for (int i = 0; i < 100; ++i) {
+    heartbeat.utime = executor_.Now();
+    heartbeat.heartbeat_node = "invented-" + std::to_string(i);
+    station_.Publish(bus::channel::kHeartbeat, heartbeat);
+  }
+  Run(5);
+  heartbeat.heartbeat_node = "formation-controller";
+  for (int i = 0; i < 5; ++i) {
+    heartbeat.utime = executor_.Now();
+    station_.Publish(bus::channel::kHeartbeat, heartbeat);
+    Run(1);
+  }
+  Run(5);
+  EXPECT_EQ(StateOf("node_silent:formation-controller"), kUnacknowledged);
+}
+
 TEST_F(MonitorAlarms, AreOneWhenTheSourceOfAHundredLinksIsSilent) {
   for (int id = 4; id <= 100; ++id) fleet_.Add(id, 0, 2000.0 * id, 1000);
   Start();
