@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "bus/channels.h"
 #include "bus/heartbeat.h"
@@ -13,6 +14,10 @@ namespace skein::bus {
 namespace {
 
 constexpr Utime kLookPeriod = kSecond / 20;
+// A process that has not looked for so long was stopped, and has not read what came meanwhile.
+constexpr Utime kWasStopped = kSecond / 2;
+// While somebody stands by: OnlyOne::kSilence is ten of these, so that a lossy network swaps nobody.
+constexpr Utime kBeat = kSecond / 4;
 constexpr const char* kStandby = "-standby";
 // Whoever can send HEARTBEAT can invent sessions.
 constexpr std::size_t kMostKnown = 100;
@@ -44,8 +49,10 @@ bool AwaitTurn(const Transport& transport, const std::string& node) {
   });
   SendHeartbeat(bus, transport.receive_buffer_bytes);
   StartHeartbeat(bus, transport.receive_buffer_bytes);
+  Utime looked = start;
   executor.Every(kLookPeriod, [&] {
     const Utime now = executor.Now();
+    if (now - std::exchange(looked, now) >= kWasStopped && active_heard) active_heard = now;
     std::erase_if(before_us, [&](const auto& entry) { return now - entry.second >= OnlyOne::kSilence; });
     const bool active = active_heard && now - *active_heard < OnlyOne::kSilence;
     if (active && !told) {
@@ -75,8 +82,13 @@ Turn::Turn(Bus& bus, std::int64_t receive_buffer_bytes, std::function<void()> en
       if (over_) end();
       return;
     }
-    if ((same || heartbeat.heartbeat_node == StandbyOf(bus.node())) && IsNew(known_, heartbeat.session_id))
-      SendHeartbeat(bus, receive_buffer_bytes);
+    const bool stands_by = heartbeat.heartbeat_node == StandbyOf(bus.node());
+    if (stands_by) standby_heard_ = bus.executor().Now();
+    if ((same || stands_by) && IsNew(known_, heartbeat.session_id)) SendHeartbeat(bus, receive_buffer_bytes);
+  });
+  bus.executor().Every(kBeat, [this, &bus, receive_buffer_bytes] {
+    const bool stands_by = standby_heard_ && bus.executor().Now() - *standby_heard_ < 2 * OnlyOne::kSilence;
+    if (stands_by && !over_) SendHeartbeat(bus, receive_buffer_bytes);
   });
   SendHeartbeat(bus, receive_buffer_bytes);
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -12,8 +13,9 @@ namespace skein::bus {
 
 /// Of some nodes there is to be one alone on a bus: two simulators of a fleet, or two controllers that
 /// command it, would work against one another. One that is started while another runs stands by, and takes
-/// over when that one has been silent for kSilence. All by HEARTBEAT: who stands by is called "NODE-standby"
-/// in it, and whoever hears of a newcomer tells him at once that he is there himself.
+/// over when that one has been silent for kSilence; while it does, that one beats four times a second. All by
+/// HEARTBEAT: who stands by is called "NODE-standby" in it, and whoever hears of a newcomer tells him at once
+/// that he is there himself.
 ///
 /// Nothing but a network that was cut in two, or a process that was stopped for seconds, lets two run at
 /// once. When they hear of one another the older one ends. A simulator obeys the newest controller alone, so
@@ -45,7 +47,8 @@ class Turn {
 
  private:
   bool over_ = false;
-  std::int64_t later_ = 0;        ///< session of a later one
+  std::int64_t later_ = 0;  ///< session of a later one
+  std::optional<Utime> standby_heard_;
   Utime later_beat_ = 0;          ///< time stamp of its first heartbeat that was heard
   std::set<std::int64_t> known_;  ///< sessions of others that have been told of this one
 };

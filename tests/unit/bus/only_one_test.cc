@@ -38,6 +38,23 @@ TEST_F(TurnTest, IsOverWhenALaterOneIsHeardTwice) {
   EXPECT_EQ(ends_, 1);
 }
 
+TEST_F(TurnTest, BeatsFourTimesASecondWhileSomebodyStandsBy) {
+  int beats = 0;
+  other_.Subscribe<heartbeat_t>(channel::kHeartbeat, [&](const heartbeat_t& heartbeat) {
+    beats += heartbeat.heartbeat_node == "node" ? 1 : 0;
+  });
+  const auto beats_in = [&](Utime time) {
+    beats = 0;
+    executor_.RunFor(time);
+    return beats;
+  };
+  EXPECT_EQ(beats_in(2 * kSecond), 1) << "to say that it is there; the one a second is StartHeartbeat's";
+  Hear(later_, executor_.Now(), StandbyOf("node"));
+  EXPECT_EQ(beats_in(2 * kSecond), 8);
+  EXPECT_LT(beats_in(20 * kSecond), 20) << "the standby is gone";
+  EXPECT_EQ(beats_in(2 * kSecond), 0);
+}
+
 TEST_F(TurnTest, IsNotOverForOneFalseMessageHoweverOftenItComes) {
   for (int i = 0; i < 5; ++i) Hear(later_, later_ + kSecond);
   Hear(later_ + 1, later_ + 9 * kSecond);
