@@ -141,13 +141,17 @@ TEST(Replay, RefusesABusOnWhichNodesLiveAndTheLiveOne) {
   Process replay = StartReplay(file, FreeTcpPort(), flight.lcm_url(), {});
   EXPECT_EQ(replay.WaitForEnd(30s), 2);
   EXPECT_NE(replay.output().find("nodes are alive on"), std::string::npos) << replay.output();
-  // Another group is no other bus.
-  for (const char* url : {"udpm://239.255.76.68:7667?ttl=0", "udpm://239.255.76.67:07667?ttl=0",
-                          "udpm://239.255.76.67:7667/?ttl=0", "udpm://"}) {
+  const auto expect_refused = [&](const std::string& url, const std::string& why) {
     Process live = StartReplay(file, FreeTcpPort(), url, {});
     EXPECT_EQ(live.WaitForEnd(30s), 2) << url;
-    EXPECT_NE(live.output().find("is the live bus"), std::string::npos) << url << ": " << live.output();
-  }
+    EXPECT_NE(live.output().find(why), std::string::npos) << url << ": " << live.output();
+  };
+  // Another group is no other bus.
+  for (const char* url : {"udpm://239.255.76.68:7667?ttl=0", "udpm://"})
+    expect_refused(url, "is the live bus");
+  // LCM reads 0x1df3 as 7667.
+  for (const char* port : {"0x1df3", "07667", "+7667", "7667/"})
+    expect_refused("udpm://239.255.76.67:" + std::string(port) + "?ttl=0", "must be a plain number");
   ASSERT_TRUE(flight.End());
   std::filesystem::remove_all(folder);
 }
