@@ -198,7 +198,12 @@ test("nothing was complained of, and no request left this machine", () => {
 
 test("when the bridge goes the page says so, greys out, and comes back by itself", async () => {
   explain(station);
+  await screen.page.keyboard.type("kGu");
   await station.stop("web-bridge");
+  await screen.page.locator(".recording-pill").waitFor({ state: "detached" });
+  // The field went with the connection: what is typed on is not taken for shortcuts, such as that of the editor.
+  await screen.page.keyboard.type("esture");
+  expect(await screen.page.locator(".drawer").count()).toBe(0);
   await until(async () => {
     expect(await screen.text(".pill")).toBe("Reconnecting…");
     expect(await screen.text(".banner")).toContain("The fleet is shown as it was at");

@@ -110,10 +110,15 @@ test("a killed logger is seen at once, and within two seconds it records again i
   await ada.page.keyboard.press("Escape");
 });
 
-test("a recorder that is gone is not believed any longer", async () => {
+test("a recorder that is gone is not believed any longer, and takes nobody's note away", async () => {
   explain(station);
+  await ada.page.keyboard.type("kGus");
   await station.stop("flight-recorder");
   await says("Not recording");
+  await ada.page.keyboard.type("the");
+  expect(await ada.page.getByLabel("Marker", { exact: true }).inputValue()).toBe("Gusthe");
+  expect(await ada.button("Put the marker").isDisabled()).toBe(true);
+  await ada.page.keyboard.press("Escape");
   await until(async () =>
     expect(await pill(ada).getAttribute("title")).toContain("flight-recorder isn't heard"),
   );

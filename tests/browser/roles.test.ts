@@ -132,13 +132,12 @@ test("control of a holder who is gone for ten seconds goes to who asked for it",
 test("what became of control is among the events, so it is in the recording", async () => {
   explain(station);
   await ada.page.getByRole("tab", { name: "Events" }).click();
-  const events = await ada.text(".events");
   for (const text of [
     "Ada has handed control over to Bob",
     "Bob has been gone for 10 s",
     "Ada, who had asked for it, has control",
   ]) {
-    expect(events.toLowerCase()).toContain(text.toLowerCase());
+    await until(async () => expect((await ada.text(".events")).toLowerCase()).toContain(text.toLowerCase()));
   }
 });
 

@@ -44,7 +44,7 @@ test("who has no token is asked for one, and sees nothing of the fleet", async (
   await field().waitFor();
   await until(async () => expect(await field().evaluate((it) => it === document.activeElement)).toBe(true));
   expect(await field().inputValue()).toBe("");
-  expect(await screen.text(".pill")).toBe("Signed out");
+  await until(async () => expect(await screen.text(".pill")).toBe("Signed out"));
   await station.hears("formation-controller");
   expect(await screen.page.locator("tbody tr").count()).toBe(0);
   expect((await fetch(`${kPageUrl}api/state`)).status).toBe(401);
@@ -70,7 +70,7 @@ test("a viewer sees the fleet, and can't command it", async () => {
   explain(station);
   await signIn(viewer);
   await screen.row(1).waitFor();
-  expect(await screen.payload("UAV1").getAttribute("aria-disabled")).toBe("true");
+  await until(async () => expect(await screen.payload("UAV1").getAttribute("aria-disabled")).toBe("true"));
   await screen.page.reload();
   await screen.row(1).waitFor();
   await screen.button("Settings").click();

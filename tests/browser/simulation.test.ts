@@ -40,10 +40,9 @@ test("the downlink of one UAV is cut for some seconds, and comes back by itself"
   await choose("Downlink");
   await type("For [s]", "5");
   await screen.button("Cut the links of UAV2").click();
-  await until(async () => {
-    expect(await word(2)).toMatch(/downlink.* cut/);
-    expect((await screen.uav(2)).downlink).toBe("lost");
-  });
+  // One after the other: it is lost when the cut is almost over.
+  await until(async () => expect(await word(2)).toMatch(/downlink.* cut/));
+  await until(async () => expect((await screen.uav(2)).downlink).toBe("lost"));
   expect((await screen.uav(1)).downlink).toBe("up");
   await screen.picture("simulation-cut", 1280, 720, "dark");
   await until(async () => expect((await screen.uav(2)).downlink).toBe("up"));

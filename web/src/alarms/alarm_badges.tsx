@@ -90,10 +90,13 @@ export function AlarmBadges({ station }: PanelProps) {
   );
 }
 
-/** Presses a button of the panel, which has to be there first. The panel shows a refusal beside it. */
+/**
+ * Presses a button of the panel, which has to be there first, and before a newer list may put another alarm there. The panel
+ * shows a refusal beside it.
+ */
 function press(selector: string, from: ParentNode = document): void {
   showSide("alarms");
-  requestAnimationFrame(() => from.querySelector<HTMLButtonElement>(selector)?.click());
+  queueMicrotask(() => from.querySelector<HTMLButtonElement>(selector)?.click());
 }
 
 function pressOne(): void {

@@ -1,5 +1,5 @@
 import { useSignal } from "@preact/signals";
-import { useEffect, useId } from "preact/hooks";
+import { useId, useLayoutEffect } from "preact/hooks";
 import { CommandButton } from "../panels/command_button";
 import type { PanelProps } from "../shell/panel_props";
 import { Popover } from "../shell/popover";
@@ -153,7 +153,7 @@ function NameForm({ control, name }: { control: Control; name: string }) {
   const refusal = useSignal("");
   const id = useId();
   // The bridge may have found another one, because two had the same.
-  useEffect(() => {
+  useLayoutEffect(() => {
     typed.value = name;
   }, [typed, name]);
   const problem = nameProblem(typed.value) || refusal.value;

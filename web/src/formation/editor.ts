@@ -28,6 +28,8 @@ export interface Ground {
 export class FormationEditor {
   readonly sessions = signal<ReadonlyMap<number, EditSession>>(new Map());
   readonly chosen_id = signal<number | null>(null);
+  /** Whom the person chose: back when it is flown again. */
+  private wished_id: number | null = null;
   readonly session: ReadonlySignal<EditSession | null>;
   readonly conflicts: ReadonlySignal<readonly Conflict[]>;
   /** Whose slots those are. */
@@ -79,6 +81,11 @@ export class FormationEditor {
 
   /** Opens a formation that is flown; its draft is as it was left. */
   choose(formation_id: number): void {
+    this.wished_id = formation_id;
+    this.show(formation_id);
+  }
+
+  private show(formation_id: number): void {
     const { formations } = this.station.store;
     const formation = formations.peek().get(formation_id);
     if (!this.sessions.peek().has(formation_id) && formation !== undefined) {
@@ -92,6 +99,7 @@ export class FormationEditor {
     const taken = [...this.station.store.formations.peek().keys(), ...this.sessions.peek().keys()];
     const id = Math.max(0, ...taken) + 1;
     this.keep(id, newDraft(id, vehicle_ids));
+    this.wished_id = id;
     this.chosen_id.value = id;
     void this.propose("propose places");
   }
@@ -247,8 +255,12 @@ export class FormationEditor {
       return;
     }
     const chosen = this.chosen_id.value;
-    const first = Math.min(...known.keys());
-    if ((chosen === null || !sessions.has(chosen)) && Number.isFinite(first)) this.choose(first);
+    const wished = this.wished_id;
+    const wanted = wished !== null && known.has(wished) ? wished : Math.min(...known.keys());
+    const in_place = chosen !== null && sessions.has(chosen);
+    // One that took the place of the wished one gives it back, unless somebody has begun to change it.
+    const stands_in = chosen !== wished && this.session.peek()?.changed.peek() !== true;
+    if ((!in_place || (wanted === wished && stands_in)) && Number.isFinite(wanted)) this.show(wanted);
   }
 
   private flyAhead(): void {

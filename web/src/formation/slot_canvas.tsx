@@ -122,10 +122,13 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
 
   const press = (down: PointerEvent) => {
     const element = down.currentTarget as HTMLCanvasElement;
+    // First: a field that loses the focus changes the draft.
+    element.focus();
+    const begun = session.draft.peek();
     const start = pointOf(element, down);
     const held = viewNow();
     const reach_px = down.pointerType === "mouse" ? kReach_px : kTouchReach_px;
-    const grabbed = pick(held, draft.slots, start, reach_px);
+    const grabbed = pick(held, begun.slots, start, reach_px);
     if (grabbed === null && !down.ctrlKey && !down.metaKey && !down.shiftKey) store.select([]);
     else if (grabbed !== null && (down.ctrlKey || down.metaKey || down.shiftKey)) {
       store.toggleSelected(grabbed.vehicle_id);
@@ -153,7 +156,7 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
         left_m: snapped(grabbed.left_m + to.left_m - from.left_m, step) - grabbed.left_m,
         up_m: 0,
       };
-      session.change(moved(draft, new Set(ids), by), label, gesture);
+      session.change(moved(begun, new Set(ids), by), label, gesture);
     };
     const end = () => {
       element.removeEventListener("pointermove", move);
@@ -161,7 +164,6 @@ export function SlotCanvas({ editor, session }: SlotCanvasProps) {
     };
     element.addEventListener("pointermove", move);
     element.addEventListener("lostpointercapture", end, { once: true });
-    element.focus();
     down.preventDefault();
   };
 

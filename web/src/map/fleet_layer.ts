@@ -114,7 +114,7 @@ export class FleetLayer {
       const waypoints = this.waypoints(view, frame);
       const covers = () => coversOf(this.map.getContainer());
       scene.labels.draw(context, { uavs: visible, leaders, waypoints, detail, covers }, now_ms);
-    }
+    } else scene.texts.sweep();
   }
 
   private looksFor(colours: Colours): Looks {

@@ -49,7 +49,9 @@ export function PayloadPanel({ station }: PanelProps) {
         {vehicles.length === 0
           ? target.value === "selected"
             ? "Nobody is selected. Select UAVs on the map or in the table."
-            : "No UAV is known yet."
+            : typeof target.value === "number"
+              ? "That formation is flown no more."
+              : "No UAV is known yet."
           : `${carriers.length} of ${vehicles.length} ${vehicles.length === 1 ? "carries" : "carry"} a payload.`}
       </p>
       <div class="payload-buttons">

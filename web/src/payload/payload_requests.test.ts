@@ -40,6 +40,19 @@ test("a payload is waited for from the ACK until telemetry follows", async () =>
   expect(payloads.late(9000)).toEqual({ on: [], off: [] });
 });
 
+test("in another flight nobody was asked anything", async () => {
+  const { store, payloads, telemetry } = bench();
+  const roster = (start_utime: number) => {
+    store.takeText(JSON.stringify({ type: "roster", start_utime, vehicles: [] }));
+  };
+  roster(1);
+  telemetry(false);
+  await payloads.request([1], true);
+  expect(payloads.askedOf(1)).toBeDefined();
+  roster(2);
+  expect(payloads.askedOf(1)).toBeUndefined();
+});
+
 test("who doesn't follow within five seconds is named, with the link when it is lost", async () => {
   const { store, payloads, telemetry, at } = bench();
   telemetry(false, false);

@@ -24,6 +24,8 @@ export function phaseOf(asked: Asked | undefined, on: boolean | null, now_ms: nu
 
 export class PayloadRequests {
   private readonly asked = signal<ReadonlyMap<number, Asked>>(new Map());
+  /** When the present flight was started; null: none is known yet. */
+  private flight: number | null = null;
 
   constructor(
     private readonly store: Store,
@@ -66,6 +68,10 @@ export class PayloadRequests {
   }
 
   private settle(now_ms: number): void {
+    const flight = this.store.roster.value?.start_utime ?? this.flight;
+    // In a new flight nobody was asked anything yet.
+    if (this.flight !== null && flight !== this.flight) this.asked.value = new Map();
+    this.flight = flight;
     const open = [...this.asked.peek()].filter(
       ([id, asked]) => asked.on !== this.telemetry(id) && now_ms - asked.asked_ms < kForget_ms,
     );

@@ -60,7 +60,8 @@ export function ProfileChart({ planner, draft }: ProfileChartProps) {
       role="img"
       aria-label={`Altitude along the path, ${altitude.unit()} ${kAltitudeReference} over ${distance.unit()}`}
       onPointerMove={drag}
-      onPointerUp={() => {
+      // However it ends: let go, or taken away by a menu or a second finger.
+      onLostPointerCapture={() => {
         held.value = null;
         draft.history.endGesture();
       }}
@@ -97,7 +98,10 @@ export function ProfileChart({ planner, draft }: ProfileChartProps) {
           class={`profile-waypoint${draft.selected.value === i ? " selected" : ""}${problems.has(i) ? " problem" : ""}`}
           transform={`translate(${scale.x(along_m)} ${scale.y(up_m)})`}
           onPointerDown={(event) => {
+            if (event.button !== 0) return;
             event.preventDefault();
+            // What is typed in a field belongs to the waypoint that was selected until now.
+            if (document.activeElement instanceof HTMLElement) document.activeElement.blur();
             svg.current?.setPointerCapture(event.pointerId);
             draft.selected.value = i;
             held.value = { index: i, scale };

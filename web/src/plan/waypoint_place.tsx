@@ -46,7 +46,7 @@ export function WaypointPlace({ station, draft }: WaypointPlaceProps) {
       ? null
       : `More than ${farDistance(kFarthest_m)} from the origin.`;
   return (
-    <fieldset class="plan-group">
+    <fieldset class="plan-group" key={number}>
       <legend>{`Waypoint ${number}`}</legend>
       <Choice
         label="Place"

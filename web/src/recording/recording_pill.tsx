@@ -82,7 +82,7 @@ function RecordingMenu({ view, commands }: { view: Shown; commands: Commands }) 
           Start
         </CommandButton>
       )}
-      {(view.kind === "recording" || view.reachable) && <MarkerForm commands={commands} />}
+      <MarkerForm commands={commands} reachable={view.kind === "recording" || view.reachable} />
     </div>
   );
 }
@@ -103,8 +103,8 @@ function Facts({ status }: { status: RecordingStatus }) {
   );
 }
 
-/** A note for whoever sees the recording later, and for all who see this flight. */
-function MarkerForm({ commands }: { commands: Commands }) {
+/** A note for whoever sees the recording later, and for all who see this flight. It stays while there is nobody to write it down. */
+function MarkerForm({ commands, reachable }: { commands: Commands; reachable: boolean }) {
   const text = useSignal("");
   const put = useSignal("");
   const form = useRef<HTMLFormElement>(null);
@@ -149,7 +149,7 @@ function MarkerForm({ commands }: { commands: Commands }) {
           put.value = "";
         }}
       />
-      <CommandButton label="Put the marker" disabled={problem !== ""} command={send}>
+      <CommandButton label="Put the marker" disabled={!reachable || problem !== ""} command={send}>
         Put
       </CommandButton>
       <p id={`${id}-put`} class="hint" role="status">

@@ -150,8 +150,8 @@ export function Dock({ station }: PanelProps) {
       run: () => {
         dock_panel.value = id;
         dock_open.value = true;
-        // Once it is drawn.
-        requestAnimationFrame(() => {
+        // Once the page has it, and before the next key.
+        queueMicrotask(() => {
           document.querySelector<HTMLElement>("#dock-body [data-keys]")?.focus();
         });
       },

@@ -16,6 +16,9 @@ export interface Shortcut {
   over_dialogs?: boolean;
 }
 
+/** A field may go away under somebody's hands, with the connection, say: what is typed on is no shortcut. */
+const kMeantForField_ms = 2000;
+
 /** Those that are in force now. Of two with the same keys, the later one counts: that of the panel opened last. */
 export const shortcuts = signal<readonly Shortcut[]>([]);
 
@@ -74,8 +77,20 @@ function presses(target: EventTarget | null, keys: string): boolean {
 }
 
 export function listenForShortcuts(): () => void {
+  /** The field that was typed in last, and when; null when the person was done with it. */
+  let typed: { field: Node; ms: number } | null = null;
   const onKey = (event: KeyboardEvent) => {
-    if (event.defaultPrevented || typing(event.target)) return;
+    if (typing(event.target)) {
+      const done = ["Enter", "Escape", "Tab"].includes(event.key);
+      typed = done ? null : { field: event.target as Node, ms: event.timeStamp };
+      return;
+    }
+    if (event.defaultPrevented) return;
+    if (typed !== null && !typed.field.isConnected && event.timeStamp - typed.ms < kMeantForField_ms) {
+      typed.ms = event.timeStamp;
+      event.preventDefault();
+      return;
+    }
     const keys = keysOf(event);
     if (presses(event.target, keys)) return;
     const shortcut = shortcuts.peek().findLast((one) => one.keys.toLowerCase() === keys.toLowerCase());
@@ -85,8 +100,13 @@ export function listenForShortcuts(): () => void {
     event.preventDefault();
     if (!event.repeat || shortcut.repeats === true) shortcut.run();
   };
+  const onPointer = () => {
+    typed = null;
+  };
   document.addEventListener("keydown", onKey);
+  document.addEventListener("pointerdown", onPointer);
   return () => {
     document.removeEventListener("keydown", onKey);
+    document.removeEventListener("pointerdown", onPointer);
   };
 }

@@ -5,6 +5,7 @@ import { lateSentence } from "../payload/late_sentence";
 import type { PanelProps } from "../shell/panel_props";
 import { kColumns, kLinkColumn } from "./columns";
 import { RowList } from "./row_list";
+import { inForce } from "./row_order";
 import { filter_text, hidden_columns, order, show } from "./table_settings";
 import { TableToolbar } from "./table_toolbar";
 import { UavGrid } from "./uav_grid";
@@ -26,7 +27,8 @@ export function FormationTable({ station }: PanelProps) {
   const focus_in = useSignal(false);
   const vehicles = useMemo(() => new Map(roster?.vehicles.map((vehicle) => [vehicle.id, vehicle])), [roster]);
 
-  const wish = { roster, order: order.value, show: show.value, text: filter_text.value };
+  const shown = inForce(show.value, store.formations.value);
+  const wish = { roster, order: order.value, show: shown, text: filter_text.value };
   const touched_ms = useRef(-Infinity);
   const touch = () => {
     touched_ms.current = performance.now();

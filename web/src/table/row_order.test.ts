@@ -3,7 +3,7 @@ import { kHasSlot } from "../link/frames";
 import type { Formation } from "../link/messages";
 import { Fleet, kLinkLost } from "../state/fleet";
 import { motionFrame, statusFrame } from "../state/frames_for_tests";
-import { filterVehicles, kWorstFirst, orderIds, type SortKey } from "./row_order";
+import { filterVehicles, inForce, kWorstFirst, orderIds, type SortKey } from "./row_order";
 
 const kIds = [1, 2, 3, 4, 5];
 const kVehicles = kIds.map((id) => ({ id, callsign: `UAV${id}`, model: "default", has_payload: id < 4 }));
@@ -62,4 +62,11 @@ test("a filter shows alerting ones, lost ones, a formation, or what a text is fo
   expect(ids("all", "uav3")).toEqual([3]);
   expect(ids("all", "bravo 4")).toEqual([4]);
   expect(ids("alerting", "bravo")).toEqual([3]);
+});
+
+test("a formation that is flown no more hides nobody", () => {
+  const flown = new Map([[2, null]]);
+  expect(inForce(2, flown)).toBe(2);
+  expect(inForce(3, flown)).toBe("all");
+  expect(inForce("lost", flown)).toBe("lost");
 });

@@ -132,6 +132,11 @@ export function orderIds(
 /** "all", "alerting", "lost", or the id of a formation. */
 export type Show = "all" | "alerting" | "lost" | number;
 
+/** A formation that is flown no more filters nothing; when it comes back it does again. */
+export function inForce(show: Show, formations: ReadonlyMap<number, unknown>): Show {
+  return typeof show === "number" && !formations.has(show) ? "all" : show;
+}
+
 /** Those that are to be shown: `text` is looked for in callsign, id, model and name of the formation. */
 export function filterVehicles(
   fleet: Fleet,

@@ -5,7 +5,7 @@ import { Popover } from "../shell/popover";
 import type { Station } from "../shell/station";
 import { kColumns } from "./columns";
 import { parseIdRange } from "./id_range";
-import { kWorstFirst, type Show } from "./row_order";
+import { inForce, kWorstFirst, type Show } from "./row_order";
 import { Summary } from "./summary";
 import { filter_text, hidden_columns, order, show } from "./table_settings";
 
@@ -56,7 +56,7 @@ function Filter({ station }: { station: Station }) {
         class="field"
         aria-label="Show"
         title="Which UAVs the table shows"
-        value={String(show.value)}
+        value={String(inForce(show.value, station.store.formations.value))}
         onChange={({ currentTarget }) => {
           const { value } = currentTarget;
           show.value = /^\d+$/.test(value) ? Number(value) : (value as Show);
