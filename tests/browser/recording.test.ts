@@ -115,13 +115,13 @@ test("a recorder that is gone is not believed any longer, and takes nobody's not
   await ada.page.keyboard.type("kGus");
   await station.stop("flight-recorder");
   await says("Not recording");
+  await until(async () =>
+    expect(await pill(ada).getAttribute("title")).toContain("flight-recorder isn't heard"),
+  );
   await ada.page.keyboard.type("the");
   expect(await ada.page.getByLabel("Marker", { exact: true }).inputValue()).toBe("Gusthe");
   expect(await ada.button("Put the marker").isDisabled()).toBe(true);
   await ada.page.keyboard.press("Escape");
-  await until(async () =>
-    expect(await pill(ada).getAttribute("title")).toContain("flight-recorder isn't heard"),
-  );
 });
 
 test("nothing was complained of, and no request left this machine", () => {
