@@ -1,3 +1,4 @@
+import { useSignal } from "@preact/signals";
 import { NumberField } from "../panels/number_field";
 import { distance } from "../units/quantities";
 import { fitted, toPixel } from "./canvas_view";
@@ -21,6 +22,35 @@ const kIconSlots: Readonly<Record<Shape, number>> = {
   diamond: 4,
   vee: 5,
 };
+
+/** Keeps what is being typed, whatever else changes the draft meanwhile. Enter or leaving takes it, Escape takes it back. */
+function NameField({ value, commit }: { value: string; commit: (name: string) => void }) {
+  const typed = useSignal<string | null>(null);
+  const take = () => {
+    const name = typed.value?.trim() ?? value;
+    typed.value = null;
+    if (name !== value) commit(name);
+  };
+  return (
+    <input
+      type="text"
+      aria-label="Name"
+      maxLength={40}
+      value={typed.value ?? value}
+      onInput={(event) => {
+        typed.value = event.currentTarget.value;
+      }}
+      onBlur={take}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") take();
+        else if (event.key === "Escape" && typed.value !== null) typed.value = null;
+        else return;
+        event.preventDefault();
+        event.stopPropagation();
+      }}
+    />
+  );
+}
 
 export function ShapeForm({ editor, session }: FormProps) {
   const draft = session.draft.value;
@@ -50,13 +80,11 @@ export function ShapeForm({ editor, session }: FormProps) {
       <div class="formation-fields">
         <label class="formation-field name">
           <span aria-hidden="true">Name</span>
-          <input
-            type="text"
-            aria-label="Name"
-            maxLength={40}
+          <NameField
+            key={draft.formation_id}
             value={draft.name}
-            onChange={(event) => {
-              editor.change({ ...draft, name: event.currentTarget.value.trim() }, "name");
+            commit={(name) => {
+              editor.change({ ...draft, name }, "name");
             }}
           />
         </label>

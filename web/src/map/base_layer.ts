@@ -1,12 +1,30 @@
-import type { Signal } from "@preact/signals";
+import { computed, effect, type ReadonlySignal, type Signal } from "@preact/signals";
 import type L from "leaflet";
 import type { Hello } from "../link/messages";
 import type { Theme } from "../state/settings";
 import type { BaseMap } from "./layers";
 import { baseInForce, tileLayerFor } from "./tile_layers";
 
-/** Shows the base map that was chosen, or says in `problem` why it can't; what is returned takes it away. */
-export function showBase(
+/** Shows the base map that is chosen, or says in `problem` why it can't. What is returned ends that. */
+export function keepBase(
+  map: L.Map,
+  hello: ReadonlySignal<Hello | null>,
+  wanted: ReadonlySignal<BaseMap>,
+  theme: ReadonlySignal<Theme>,
+  problem: Signal<string>,
+): () => void {
+  // Every connection says hello anew: the map is made anew only if others are served.
+  const served = computed(() => {
+    const { tiles, tile_url, tile_attribution } = hello.value ?? {};
+    return JSON.stringify([tiles, tile_url, tile_attribution]);
+  });
+  return effect(() => {
+    void served.value;
+    return showBase(map, hello.peek(), wanted.value, theme.value, problem);
+  });
+}
+
+function showBase(
   map: L.Map,
   hello: Hello | null,
   wanted: BaseMap,

@@ -16,7 +16,7 @@ import { fleetInterval_ms, groundInterval_ms, LayerClock } from "./layer_clock";
 import type { EnuPoint, MapAccess, MapTool } from "./map_access";
 import { leafletMap } from "./leaflet_map";
 import { MeasureTool } from "./measure_tool";
-import { showBase } from "./base_layer";
+import { keepBase } from "./base_layer";
 import { Trails } from "./trails";
 import { neighbourOf } from "./neighbour";
 import { pixelsPerMetre, viewOf, type View } from "./view";
@@ -218,9 +218,7 @@ export class FleetMap implements MapAccess {
         this.land.paint(this.colours);
         this.drawAtOnce();
       }),
-      effect(() =>
-        showBase(this.leaflet, this.store.hello.value, base_map.value, theme.value, this.base_problem),
-      ),
+      keepBase(this.leaflet, this.store.hello, base_map, theme, this.base_problem),
       effect(() => {
         // Whatever of these changes, all is to be drawn again.
         for (const { shown } of Object.values(layers)) void shown.value;

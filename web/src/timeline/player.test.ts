@@ -83,6 +83,34 @@ test("to play the other way it is turned first; the same key pauses", async () =
   expect(asked.at(-1)).toEqual({ action: "pause" });
 });
 
+test("what was asked for counts before the bridge has said so", async () => {
+  const { player, asked, say, answer } = open({ direction: -1 });
+  void player.setSpeed(50);
+  void player.toggle(1);
+  expect(asked.slice(-2)).toEqual([
+    { action: "speed", speed: -50 },
+    { action: "speed", speed: 50 },
+  ]);
+  void player.changeSpeed(-1);
+  void player.changeSpeed(-1);
+  expect(asked.slice(-2)).toEqual([
+    { action: "speed", speed: 20 },
+    { action: "speed", speed: 10 },
+  ]);
+  vi.advanceTimersByTime(4000); // what keeps the connection alive
+  expect(asked.at(-1)).toEqual({ action: "speed", speed: 10 });
+  say({ direction: 1, speed: 50 }); // an earlier one
+  void player.changeSpeed(1);
+  expect(asked.at(-1)).toEqual({ action: "speed", speed: 20 });
+  say({ direction: 1, speed: 20 });
+  say({ direction: 1, speed: 5 });
+  void player.changeSpeed(1);
+  expect(asked.at(-1)).toEqual({ action: "speed", speed: 10 });
+  for (let i = 0; i < 7; ++i) await answer({ accepted: false, reason: "no" });
+  void player.changeSpeed(1);
+  expect(asked.at(-1)).toEqual({ action: "speed", speed: 10 });
+});
+
 test("a loop has its ends set one after the other, in either order", () => {
   const { player, asked, say } = open();
   player.setLoopEnd("a");

@@ -27,6 +27,8 @@ export class Player {
   /** One end of a loop whose other end is still to be set. */
   readonly loop_a_s = signal<number | null>(null);
   private seeking = false;
+  /** What was asked for and is not told yet: times real time, negative backwards. Nobody else changes it. */
+  private velocity_asked: number | null = null;
   /** Where a lost connection has left us. */
   private left: PlaybackMessage | null = null;
   /** The last that the connection said which was lost. */
@@ -59,6 +61,12 @@ export class Player {
       this.comeBack();
     });
     effect(() => this.keepAlive());
+    effect(() => {
+      const told = this.store.playback.value;
+      const lost = this.store.connection.value.kind !== "open";
+      if (lost || (told !== null && told.direction * told.speed === this.velocity_asked))
+        this.velocity_asked = null;
+    });
   }
 
   /** While nothing plays nothing comes, and a link that is dead would not be noticed: so something is asked that changes nothing. */
@@ -66,8 +74,10 @@ export class Player {
     const playback = this.store.playback.value;
     const still = playback?.state === "paused" || playback?.state === "ended";
     if (!still || this.store.connection.value.kind !== "open") return undefined;
-    const speed = playback.direction * playback.speed;
-    const timer = setInterval(() => void this.commands.playback({ action: "speed", speed }), kKeepAlive_ms);
+    const timer = setInterval(
+      () => void this.commands.playback({ action: "speed", speed: this.velocity() }),
+      kKeepAlive_ms,
+    );
     return () => {
       clearInterval(timer);
     };
@@ -124,17 +134,16 @@ export class Player {
   async toggle(direction: 1 | -1): Promise<void> {
     const playback = this.store.playback.value;
     if (playback === null) return;
-    if (playback.state === "playing" && playback.direction === direction) {
+    if (playback.state === "playing" && Math.sign(this.velocity()) === direction) {
       await this.ask({ action: "pause" });
       return;
     }
-    if (playback.direction !== direction)
-      await this.ask({ action: "speed", speed: direction * playback.speed });
+    if (Math.sign(this.velocity()) !== direction) await this.setVelocity(-this.velocity());
     await this.ask({ action: "play" });
   }
 
-  step(steps: number): Promise<void> {
-    return this.ask({ action: "step", steps });
+  async step(steps: number): Promise<void> {
+    await this.ask({ action: "step", steps });
   }
 
   /** Jumps. While a jump is under way only the last that was wanted waits. */
@@ -144,12 +153,23 @@ export class Player {
   }
 
   setSpeed(speed: number): Promise<void> {
-    const direction = this.store.playback.value?.direction ?? 1;
-    return this.ask({ action: "speed", speed: direction * speed });
+    return this.setVelocity(Math.sign(this.velocity()) * speed);
   }
 
   changeSpeed(steps: 1 | -1): Promise<void> {
-    return this.setSpeed(nextSpeed(this.store.playback.value?.speed ?? 1, steps));
+    return this.setSpeed(nextSpeed(Math.abs(this.velocity()), steps));
+  }
+
+  /** Times real time, negative backwards: what the bridge has been asked for, though it may not have said so yet. */
+  private velocity(): number {
+    const { direction, speed } = this.store.playback.value ?? { direction: 1, speed: 1 };
+    return this.velocity_asked ?? direction * speed;
+  }
+
+  private async setVelocity(velocity: number): Promise<void> {
+    this.velocity_asked = velocity;
+    const accepted = await this.ask({ action: "speed", speed: velocity });
+    if (!accepted && this.velocity_asked === velocity) this.velocity_asked = null;
   }
 
   /** Sets an end of the loop to the time that is played. */
@@ -187,9 +207,10 @@ export class Player {
     this.seeking = false;
   }
 
-  private async ask(body: PlaybackBody): Promise<void> {
+  private async ask(body: PlaybackBody): Promise<boolean> {
     const { accepted, reason }: Outcome = await this.commands.playback(body);
     this.refusal.value = accepted ? "" : reason;
+    return accepted;
   }
 
   private async fetchInfo(name: string, abort: AbortSignal): Promise<void> {
