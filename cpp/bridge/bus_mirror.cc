@@ -26,6 +26,7 @@ constexpr bus::Utime kLookPeriod = bus::kSecond / 4;
 // The controller repeats a formation once a second.
 constexpr bus::Utime kFormationGoneAfter = 3 * bus::kSecond;
 constexpr std::size_t kMostNodes = 100;
+constexpr std::size_t kMostFormations = 10'000;
 constexpr const char* kController = "formation-controller";
 // An endless line is drawn 20 km ahead; it is drawn anew halfway.
 constexpr double kDrawAnewAfter_m = 10'000;
@@ -98,7 +99,13 @@ void BusMirror::Hear(const fleet_state_t& state) {
   fleet_.Take(state, Now());
 }
 
+// Whoever can send can invent formations.
+bool BusMirror::HasRoomFor(std::int32_t formation_id) const {
+  return flights_.contains(formation_id) || flights_.size() < kMostFormations;
+}
+
 void BusMirror::Hear(const formation_t& formation) {
+  if (!HasRoomFor(formation.formation_id)) return;
   flights_[formation.formation_id].formation = formation;
   Repeated& known = formations_[formation.formation_id];
   Json shown = ToJson(formation);
@@ -111,6 +118,7 @@ void BusMirror::Hear(const formation_t& formation) {
 
 void BusMirror::Hear(const formation_status_t& status) {
   const std::int32_t id = status.formation_id;
+  if (!HasRoomFor(id)) return;
   formation_status_t& last = flights_[id].status;
   const bool same_mode =
       last.formation_id == id && last.mode == status.mode && last.mode_text == status.mode_text;
@@ -126,6 +134,7 @@ void BusMirror::Hear(const formation_status_t& status) {
 }
 
 void BusMirror::Hear(const path_t& path) {
+  if (!HasRoomFor(path.formation_id)) return;
   flights_[path.formation_id].path = path;
   const auto known = paths_.find(path.formation_id);
   if (known != paths_.end() && known->second.message.path_revision == path.path_revision) return;

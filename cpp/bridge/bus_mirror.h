@@ -85,6 +85,7 @@ class BusMirror {
 
   void Hear(const fleet_roster_t& roster);
   void Hear(const fleet_state_t& state);
+  bool HasRoomFor(std::int32_t formation_id) const;
   void Hear(const formation_t& formation);
   void Hear(const formation_status_t& status);
   void Hear(const path_t& path);

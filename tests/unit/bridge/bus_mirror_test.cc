@@ -317,6 +317,28 @@ TEST_F(BusMirrorTest, DrawsAPathAnewForANewRevisionAndWhenAnEndlessOneIsFlown) {
   EXPECT_EQ(Texts("path").size(), 3u);
 }
 
+TEST_F(BusMirrorTest, KeepsNoMoreInventedNodesAndFormationsThanAFleetCouldHave) {
+  heartbeat_t heartbeat{};
+  for (int i = 0; i < 150; ++i) {
+    heartbeat.heartbeat_node = "invented-" + std::to_string(i);
+    others_.Publish(channel::kHeartbeat, heartbeat);
+  }
+  formation_t formation = Formation();
+  for (int i = 1; i <= 10'100; ++i) {
+    formation.formation_id = i;
+    others_.Publish(channel::kFormation, formation);
+    if (i % 100 == 0) executor_.Deliver();
+  }
+  EXPECT_EQ(Texts("heartbeat").size(), 100u);
+  EXPECT_EQ(mirror_.State()["formations"].size(), 10'000u);
+  // Those that are known go on.
+  formation.formation_id = 1;
+  formation.hold = true;
+  others_.Publish(channel::kFormation, formation);
+  executor_.Deliver();
+  EXPECT_EQ(Texts("formation").size(), 10'001u);
+}
+
 TEST_F(BusMirrorTest, KeepsTheLastTwoHundredEvents) {
   for (int i = 1; i <= 205; ++i) SendEvent("event " + std::to_string(i));
   executor_.Deliver();
