@@ -18,10 +18,11 @@ namespace {
 // data; all of it big endian.
 constexpr std::array<unsigned char, 4> kMagic = {0xED, 0xA1, 0xDA, 0x01};
 constexpr std::uint64_t kHeaderBytes = 28;
-constexpr std::uint32_t kMaxChannelBytes = 999;     // as LCM's own reader
-constexpr std::uint32_t kMaxDataBytes = 1U << 28;   // LCM carries no longer messages
-constexpr std::uint64_t kSearchBytes = 256 * 1024;  // at once
-constexpr std::uint64_t kProbeBytes = 64ULL << 20;  // without an event in it a file is no log
+constexpr std::uint32_t kMaxChannelBytes = 999;         // as LCM's own reader
+constexpr std::uint32_t kMaxDataBytes = 1U << 28;       // LCM carries no longer messages
+constexpr std::uint64_t kWindowBytes = 256 * 1024;      // read at once
+constexpr std::uint64_t kFirstWindowBytes = 16 * 1024;  // who wants one message alone has read enough
+constexpr std::uint64_t kProbeBytes = 64ULL << 20;      // without an event in it a file is no log
 constexpr std::uint64_t kMaxUnconfirmedBytes = 16ULL << 20;
 constexpr std::size_t kMaxListedDamage = 1000;
 
@@ -81,11 +82,30 @@ struct LogReader::Header {
 };
 
 LogReader::LogReader(const LogFile& log, std::uint64_t offset)
-    : log_(log), offset_(offset), reports_(offset == 0), window_(log.descriptor_) {}
+    : log_(log), offset_(offset), reports_(offset == 0) {}
 
 /// The bytes from `offset` on, fewer than `size` where the file ends before.
 std::span<const std::byte> LogReader::Window(std::uint64_t offset, std::uint64_t size) {
-  return window_.At(offset, size, log_.bytes_);
+  if (offset < window_offset_ || offset + size > window_offset_ + window_bytes_) {
+    const std::uint64_t left = offset < log_.bytes_ ? log_.bytes_ - offset : 0;
+    const std::uint64_t usual = window_.empty() ? kFirstWindowBytes : kWindowBytes;
+    const std::uint64_t wanted = std::min(std::max(size, usual), left);
+    // A long event does not keep its memory once it is past.
+    if (window_.size() < wanted || window_.size() > 4 * kMaxUnconfirmedBytes) {
+      window_ = std::vector<std::byte>(std::max(wanted, usual));
+    }
+    window_offset_ = offset;
+    window_bytes_ = 0;
+    while (window_bytes_ < wanted) {
+      const ssize_t got = pread(log_.descriptor_, window_.data() + window_bytes_, wanted - window_bytes_,
+                                static_cast<off_t>(offset + window_bytes_));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0) break;  // an unreadable disk, or cut short meanwhile: as if the file ended here
+      window_bytes_ += static_cast<std::uint64_t>(got);
+    }
+  }
+  const std::uint64_t start = offset - window_offset_;
+  return {window_.data() + start, std::min(size, window_bytes_ - std::min(start, window_bytes_))};
 }
 
 /// None where no event can start. Its end may lie beyond the end of the file.
@@ -107,7 +127,9 @@ std::optional<LogReader::Header> LogReader::ReadHeader(std::uint64_t offset) {
 bool LogReader::Follows(std::uint64_t end) {
   if (end >= log_.bytes_) return end == log_.bytes_;
   // Beside the window, which has the event in it.
-  if (window_.Holds(end, kMagic.size())) return IsMagic(Window(end, kMagic.size()));
+  if (end >= window_offset_ && end + kMagic.size() <= window_offset_ + window_bytes_) {
+    return IsMagic(Window(end, kMagic.size()));
+  }
   std::array<std::byte, kMagic.size()> next{};
   const ssize_t got = pread(log_.descriptor_, next.data(), next.size(), static_cast<off_t>(end));
   if (got <= 0) return false;
@@ -125,7 +147,7 @@ std::optional<std::uint64_t> LogReader::FindMagic(std::uint64_t from, std::uint6
       from = static_cast<std::uint64_t>(data);
       continue;
     }
-    const auto bytes = Window(from, std::min(kSearchBytes, stop - from));
+    const auto bytes = Window(from, std::min(kWindowBytes, stop - from));
     if (bytes.size() < kMagic.size()) return std::nullopt;
     const void* found = memmem(bytes.data(), bytes.size(), kMagic.data(), kMagic.size());
     if (found) return from + static_cast<std::uint64_t>(static_cast<const std::byte*>(found) - bytes.data());

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "bus/executor.h"
-#include "recording/file_window.h"
 
 namespace skein::recording {
 
@@ -69,9 +68,6 @@ class LogReader {
   /// the first one, and what is skipped is not reported. @param log outlives the reader.
   explicit LogReader(const LogFile& log, std::uint64_t offset = 0);
 
-  /// Reads on another thread what comes next, meanwhile: for who goes through the whole file.
-  void ReadAhead() { window_.ReadAhead(); }
-
   /// The next event, none at the end of the file.
   std::optional<LogEvent> Next();
 
@@ -109,7 +105,9 @@ class LogReader {
   std::uint64_t search_bytes_ = ~0ULL;  ///< how much may still be searched
   std::optional<bus::Utime> last_utime_;
   std::optional<Confirmed> confirmed_;
-  FileWindow window_;
+  std::vector<std::byte> window_;
+  std::uint64_t window_offset_ = 0;
+  std::uint64_t window_bytes_ = 0;
   std::vector<Damage> damage_;
   std::optional<Damage> tail_;
   std::size_t damage_count_ = 0;

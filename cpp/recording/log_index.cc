@@ -244,7 +244,6 @@ std::optional<LogIndex> IndexLog(const LogFile& log, const std::function<bool(do
   index.bytes = log.bytes();
   Indexer indexer(index);
   LogReader reader(log);
-  reader.ReadAhead();
   std::uint64_t tell_at = 0;
   while (const auto event = reader.Next()) {
     indexer.Take(*event);

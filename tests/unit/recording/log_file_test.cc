@@ -274,28 +274,5 @@ TEST(LogFile, LosesOnlyWhatIsDamaged) {
   }
 }
 
-TEST(LogFile, ReadsAheadWhatItReadsOtherwise) {
-  for (const unsigned seed : {1U, 2U, 3U, 4U}) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    std::mt19937 random(seed);
-    std::string bytes;
-    for (int i = 0; i < 300; ++i) {
-      // Small ones, some longer than what is carried from one window to the next, some than a window.
-      const std::size_t size = random() % (i % 50 == 0 ? 3'000'000 : i % 10 == 0 ? 200'000 : 3'000);
-      std::string data(size, '\0');
-      for (std::size_t k = 0; k < size; k += 97) data[k] = static_cast<char>(random());
-      bytes += EventBytes(i, 1'700'000'000'000'000 + i, "CHANNEL", data);
-    }
-    for (int i = 0; seed > 1 && i < 20; ++i) bytes.replace(random() % (bytes.size() - 40), 40, 40, '\xED');
-    const LogBytes file(bytes);
-    const LogFile log(file.path());
-    LogReader plain(log), ahead(log);
-    ahead.ReadAhead();
-    EXPECT_EQ(ReadAll(ahead), ReadAll(plain));
-    EXPECT_EQ(ahead.damage_count(), plain.damage_count());
-    EXPECT_EQ(ahead.damaged_bytes(), plain.damaged_bytes());
-  }
-}
-
 }  // namespace
 }  // namespace skein::recording
