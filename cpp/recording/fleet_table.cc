@@ -1,5 +1,6 @@
 #include "recording/fleet_table.h"
 
+#include <algorithm>
 #include <set>
 
 namespace skein::recording {
@@ -21,14 +22,19 @@ void FleetTable::Take(const fleet_state_t& chunk, bus::Utime now) {
 }
 
 void FleetTable::Take(std::int32_t formation_id, const std::vector<slot_status_t>& slots) {
-  RemoveFormation(formation_id);
-  if (slots.empty()) return;
-  std::vector<std::int32_t>& members = members_[formation_id];
+  const auto known = members_.find(formation_id);
+  const bool same =
+      known != members_.end() && std::ranges::equal(known->second, slots, {}, {}, &slot_status_t::vehicle_id);
+  if (!same) {
+    RemoveFormation(formation_id);
+    if (slots.empty()) return;
+    std::vector<std::int32_t>& members = members_[formation_id];
+    for (const slot_status_t& slot : slots) members.push_back(slot.vehicle_id);
+  }
   for (const slot_status_t& slot : slots) {
     FleetRow& row = rows_[slot.vehicle_id];
     row.formation_id = formation_id;
     row.slot = slot;
-    members.push_back(slot.vehicle_id);
   }
 }
 

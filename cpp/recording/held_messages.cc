@@ -23,6 +23,14 @@ HeldMessages::Stream& HeldMessages::Find(const std::string& name) {
   return stream;
 }
 
+HeldMessages::Stream& HeldMessages::Find(Channel& channel, std::int64_t id) {
+  const auto known = channel.streams.find(id);
+  if (known != channel.streams.end()) return *known->second;
+  Stream& stream = Find(channel.name + "/" + std::to_string(id));
+  if (&stream != &nobody_) channel.streams.emplace(id, &stream);
+  return stream;
+}
+
 void HeldMessages::Begin(Stream& stream, bus::Utime utime, std::uint64_t offset) {
   if (stream.seen && utime - stream.last.utime > stream.longest_pause) Keep(stream.last);
   stream.last.utime = utime;
@@ -38,9 +46,7 @@ void HeldMessages::Keep(const HeldMessage& message) {
 
 void HeldMessages::See(const fleet_state_t& state, bus::Utime utime, std::uint64_t offset) {
   for (const vehicle_state_t& vehicle : state.vehicles) {
-    Stream*& stream = vehicles_[vehicle.id];
-    if (!stream) stream = &Find(std::string(bus::channel::kFleetState) + "/" + std::to_string(vehicle.id));
-    Begin(*stream, utime, offset);
+    Begin(Find(vehicles_, vehicle.id), utime, offset);
   }
 }
 

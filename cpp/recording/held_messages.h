@@ -1,11 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "bus/channels.h"
 #include "bus/chunk_traits.h"
 #include "recording/log_index.h"
 
@@ -21,12 +22,25 @@ class HeldMessages {
     Begin(Find(channel + "/" + of), utime, offset);
   }
 
+  /// What comes again and again, and its last.
+  struct Stream {
+    HeldMessage last;
+    bus::Utime longest_pause = 0;
+    std::pair<std::int64_t, std::int64_t> set;  ///< session and set of chunks
+    bool seen = false;
+  };
+  /// A channel of chunks, and which of its streams are whose.
+  struct Channel {
+    std::string name;
+    std::unordered_map<std::int64_t, Stream*> streams{};
+  };
+
   /// One of the chunks that replace the set before together.
   template <typename Message>
-  void SeeChunk(const std::string& channel, const Message& message, bus::Utime utime, std::uint64_t offset) {
+  void SeeChunk(Channel& channel, const Message& message, bus::Utime utime, std::uint64_t offset) {
     using Traits = bus::ChunkTraits<Message>;
-    Stream& stream = Find(channel + "/" + std::to_string(Traits::Stream(message)));
-    const SetId set{Traits::Session(message), Traits::Set(message)};
+    Stream& stream = Find(channel, Traits::Stream(message));
+    const std::pair set{Traits::Session(message), Traits::Set(message)};
     if (stream.seen && stream.set == set) {
       ++stream.last.messages;
       return;
@@ -42,15 +56,8 @@ class HeldMessages {
   void Finish();
 
  private:
-  using SetId = std::pair<std::int64_t, std::int64_t>;
-  struct Stream {
-    HeldMessage last;
-    bus::Utime longest_pause = 0;
-    SetId set;
-    bool seen = false;
-  };
-
   Stream& Find(const std::string& name);
+  Stream& Find(Channel& channel, std::int64_t id);
   void Begin(Stream& stream, bus::Utime utime, std::uint64_t offset);
   void Keep(const HeldMessage& message);
 
@@ -60,7 +67,7 @@ class HeldMessages {
 
   LogIndex& index_;
   std::unordered_map<std::string, Stream> streams_;
-  std::unordered_map<std::int32_t, Stream*> vehicles_;
+  Channel vehicles_{bus::channel::kFleetState};
   Stream nobody_{{.stream = UINT32_MAX}, 0, {}, false};  ///< stands for those that are too many
 };
 
