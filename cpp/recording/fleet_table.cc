@@ -4,10 +4,17 @@
 #include <set>
 
 namespace skein::recording {
+
+FleetRow& FleetTable::Row(std::int32_t id) {
+  const auto known = rows_.find(id);
+  if (known != rows_.end()) return known->second;
+  return rows_.size() < kMostRows ? rows_[id] : nobody_;
+}
+
 void FleetTable::Take(const std::vector<vehicle_info_t>& roster) {
   std::set<std::int32_t> named;
   for (const vehicle_info_t& info : roster) {
-    rows_[info.id].info = info;
+    Row(info.id).info = info;
     named.insert(info.id);
   }
   std::erase_if(rows_, [&](const auto& entry) { return !named.contains(entry.first); });
@@ -15,7 +22,7 @@ void FleetTable::Take(const std::vector<vehicle_info_t>& roster) {
 
 void FleetTable::Take(const fleet_state_t& chunk, bus::Utime now) {
   for (const vehicle_state_t& state : chunk.vehicles) {
-    FleetRow& row = rows_[state.id];
+    FleetRow& row = Row(state.id);
     row.state = state;
     row.heard_at = now;
   }
@@ -27,12 +34,12 @@ void FleetTable::Take(std::int32_t formation_id, const std::vector<slot_status_t
       known != members_.end() && std::ranges::equal(known->second, slots, {}, {}, &slot_status_t::vehicle_id);
   if (!same) {
     RemoveFormation(formation_id);
-    if (slots.empty()) return;
+    if (slots.empty() || members_.size() >= kMostRows) return;
     std::vector<std::int32_t>& members = members_[formation_id];
     for (const slot_status_t& slot : slots) members.push_back(slot.vehicle_id);
   }
   for (const slot_status_t& slot : slots) {
-    FleetRow& row = rows_[slot.vehicle_id];
+    FleetRow& row = Row(slot.vehicle_id);
     row.formation_id = formation_id;
     row.slot = slot;
   }
@@ -41,7 +48,7 @@ void FleetTable::Take(std::int32_t formation_id, const std::vector<slot_status_t
 bool FleetTable::Take(const proximity_t& chunk) {
   bool changed = false;
   for (const vehicle_proximity_t& near : chunk.vehicles) {
-    FleetRow& row = rows_[near.id];
+    FleetRow& row = Row(near.id);
     changed |= near.level != (row.proximity ? row.proximity->level : 0);
     row.proximity = near;
   }
@@ -51,7 +58,7 @@ bool FleetTable::Take(const proximity_t& chunk) {
 bool FleetTable::Take(const link_status_t& chunk) {
   bool changed = false;
   for (const vehicle_link_t& link : chunk.links) {
-    FleetRow& row = rows_[link.id];
+    FleetRow& row = Row(link.id);
     changed |= !row.link || row.link->downlink != link.downlink || row.link->uplink != link.uplink;
     row.link = link;
   }

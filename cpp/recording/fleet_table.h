@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -44,8 +45,14 @@ class FleetTable {
 
   const std::map<std::int32_t, FleetRow>& rows() const { return rows_; }
 
+  /// Who can send, or write a log, can invent UAVs: more than these are not kept.
+  static constexpr std::size_t kMostRows = 200'000;
+
  private:
+  FleetRow& Row(std::int32_t id);
+
   std::map<std::int32_t, FleetRow> rows_;
+  FleetRow nobody_;                                            ///< stands for those that are too many
   std::map<std::int32_t, std::vector<std::int32_t>> members_;  ///< of each formation, as it told last
 };
 
