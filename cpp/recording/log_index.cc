@@ -102,7 +102,7 @@ void Indexer::KnowChunks(const char* name, std::function<void(const Message&)> h
       std::make_shared<bus::ChunkAssembler<Message>>([handle_whole](const auto& whole, int missing) {
         if (missing == 0) handle_whole(whole);
       });
-  const auto held = std::make_shared<HeldMessages::Channel>(name);
+  const auto held = std::make_shared<HeldMessages::Channel>(HeldMessages::Channel{name});
   Know<Message>(name, [this, held, assembler](const Message& message) {
     held_.SeeChunk(*held, message, now_, offset_);
     assembler->Add(message);
