@@ -19,6 +19,8 @@ using nlohmann::json;
 // Far more than a thousand UAVs need; keeps an endless device from filling the memory.
 constexpr std::size_t kMaxFileBytes = 32u << 20;
 constexpr int kDeepest = 64;
+// As in the messages of the bus: what is read here is sent there.
+constexpr std::size_t kLongestText = 4096;
 
 std::string Escaped(std::string_view key) {
   std::string result;
@@ -199,6 +201,9 @@ std::string Value::Text() const {
   if (!json_->is_string()) RefuseType("a text");
   auto text = json_->get<std::string>();
   if (text.empty()) Refuse("must not be empty");
+  if (text.size() > kLongestText) Refuse("is longer than " + std::to_string(kLongestText) + " bytes");
+  const auto is_control = [](unsigned char c) { return (c < 0x20 && c != '\n' && c != '\t') || c == 0x7F; };
+  if (std::ranges::any_of(text, is_control)) Refuse("has a control character in it");
   return text;
 }
 

@@ -47,7 +47,7 @@ class Value {
   double Number(Range range) const;
   int Integer(Range range) const;
   bool Boolean() const;
-  std::string Text() const;  ///< not empty
+  std::string Text() const;  ///< not empty, and such as messages carry: no control characters, at most 4 KiB
   std::vector<Value> Items() const;
   /// Key and value of every member, for objects whose keys are free.
   std::vector<std::pair<std::string, Value>> Members() const;

@@ -1,12 +1,16 @@
-/** A Chromium without a GPU, as on a machine that only serves. */
-import { mkdtempSync, rmSync } from "node:fs";
+/** A Chromium without a GPU, as on a machine that only serves, and what it is given to show. */
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { createServer } from "node:http";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
+import { extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
 const web = createRequire(fileURLToPath(new URL("../../web/package.json", import.meta.url)));
 const { chromium } = web("playwright-core");
 export const { inflateSync } = web("fflate");
+
+const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json" };
 
 export async function openBrowser() {
   const profile = mkdtempSync(`${tmpdir()}/skein-bench-`);
@@ -37,4 +41,30 @@ export function noteDrawings() {
     if (this.canvas.className === "overlay fleet")
       requestAnimationFrame(() => window.drawn_at_ms.push(performance.timeOrigin + performance.now()));
   };
+}
+
+/** Serves a built page, without a bridge. */
+export function serve(dist) {
+  const server = createServer((request, response) => {
+    const path = request.url === "/" ? "/index.html" : request.url.replace(/\?.*/, "");
+    try {
+      const content = readFileSync(join(dist, path));
+      response.writeHead(200, { "Content-Type": kTypes[extname(path)] ?? "application/octet-stream" }).end(content);
+    } catch {
+      response.writeHead(404).end();
+    }
+  });
+  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
+}
+
+/** Drags the map about and turns the wheel, without a pause. */
+export async function move(page, until_ms) {
+  await page.mouse.move(640, 300);
+  for (let i = 0; Date.now() < until_ms; i += 1) {
+    await page.mouse.down();
+    for (let k = 0; k < 10; k += 1) await page.mouse.move(640 + 15 * k * (i % 2 === 0 ? 1 : -1), 300 + 4 * k);
+    await page.mouse.up();
+    await page.mouse.move(640, 300);
+    await page.mouse.wheel(0, i % 4 < 2 ? -60 : 60);
+  }
 }

@@ -111,6 +111,8 @@ export function madeUpFleet(count) {
       text({ type: "hello", version: "bench", lcm_url: "", utime: utime(), tile_url: null, tile_attribution: "", tiles: null });
       const vehicles = Array.from({ length: count }, (_, i) => ({ id: i + 1, callsign: `UAV${i + 1}`, model: "default", has_payload: false }));
       text({ type: "roster", utime: utime(), scenario: `${count} UAVs`, start_utime: 1.7e15, origin: kOrigin, vehicles });
+      // What comes before it is shown at once, when this has come.
+      text({ type: "complete" });
       setInterval(() => binary(motion()), count > 100 ? 200 : 100);
       setInterval(() => binary(status()), 500);
       let next = 0;

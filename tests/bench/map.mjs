@@ -7,17 +7,15 @@
  * DIST is web/dist unless named; several are measured in turn, for a comparison in one run; "markers" is what a page of Leaflet's own markers
  * costs (markers.html). SCENES=fit,zoomed,panned,moved,followed,table chooses what is measured ("moved": panned and zoomed without a pause), PROFILE=30 prints the 30 functions that took most, PICTURES=DIR keeps a screenshot of each.
  */
-import { createServer } from "node:http";
 import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { extname, join } from "node:path";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { openBrowser } from "./browser.mjs";
+import { move, openBrowser, serve } from "./browser.mjs";
 import { madeUpFleet } from "./made_up_fleet.mjs";
 
 const kWeb = fileURLToPath(new URL("../../web/", import.meta.url));
 
-const kTypes = { ".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".json": "application/json" };
 const kWarmUp_ms = 4000;
 const kMeasured_ms = 8000;
 
@@ -82,37 +80,12 @@ function printProfile({ nodes, samples, timeDeltas, startTime, endTime }) {
     console.log(`${(us / 1000 / seconds).toFixed(1).padStart(7)} ms/s  ${name}`);
 }
 
-function serve(dist) {
-  const server = createServer((request, response) => {
-    const path = request.url === "/" ? "/index.html" : request.url.replace(/\?.*/, "");
-    try {
-      const content = readFileSync(join(dist, path));
-      response.writeHead(200, { "Content-Type": kTypes[extname(path)] ?? "application/octet-stream" }).end(content);
-    } catch {
-      response.writeHead(404).end();
-    }
-  });
-  return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
-}
-
 /** A page of nothing but a map with markers, in a folder of its own. */
 function markersPage() {
   const folder = mkdtempSync(`${tmpdir()}/skein-markers-`);
   cpSync(`${kWeb}node_modules/leaflet/dist`, folder, { recursive: true });
   cpSync(fileURLToPath(new URL("markers.html", import.meta.url)), join(folder, "index.html"));
   return folder;
-}
-
-/** Drags the map about and turns the wheel, without a pause. */
-async function move(page, until_ms) {
-  await page.mouse.move(640, 300);
-  for (let i = 0; Date.now() < until_ms; i += 1) {
-    await page.mouse.down();
-    for (let k = 0; k < 10; k += 1) await page.mouse.move(640 + 15 * k * (i % 2 === 0 ? 1 : -1), 300 + 4 * k);
-    await page.mouse.up();
-    await page.mouse.move(640, 300);
-    await page.mouse.wheel(0, i % 4 < 2 ? -60 : 60);
-  }
 }
 
 async function measure(dist, count, scene) {

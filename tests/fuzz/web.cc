@@ -27,6 +27,10 @@ void Send(std::uint16_t port, const std::string& bytes) {
   asio::io_context context;
   Tcp::socket socket(context);
   boost::system::error_code error;
+  // Each from another of loopback's own addresses: the ports of one are used up within a minute.
+  static std::uint8_t host = 0;
+  socket.open(Tcp::v4());
+  socket.bind({asio::ip::address_v4({127, 1, 1, ++host}), 0});
   socket.connect({asio::ip::address_v4::loopback(), port}, error);
   fuzz::Require(!error, "the bridge still listens");
   asio::write(socket, asio::buffer(bytes), error);

@@ -155,6 +155,9 @@ TEST(RecordingCommand, HasATextWithAMarkerOnly) {
   EXPECT_NE(Refusal(ParseRecordingCommand, R"({"action": "marker"})").find("text"), std::string::npos);
   EXPECT_EQ(Refusal(ParseRecordingCommand, R"({"action": "start", "text": "x"})"),
             "CMD_RECORDING: /text: goes with marker only");
+  // Receivers would refuse the whole message, and nobody would answer.
+  EXPECT_EQ(Refusal(ParseRecordingCommand, R"({"action": "marker", "text": "a\u007f"})"),
+            "CMD_RECORDING: /text: has a control character in it");
 }
 
 TEST(AlarmCommand, NamesAlarmsOrAllUpToOne) {

@@ -71,6 +71,8 @@ INSTANTIATE_TEST_SUITE_P(
               "/vehicles/1: must be an object, is a number"},
         Fault{R"({"op": "replace", "path": "/name", "value": 7})", "/name: must be a text, is a number"},
         Fault{R"({"op": "replace", "path": "/name", "value": ""})", "/name: must not be empty"},
+        Fault{R"({"op": "replace", "path": "/name", "value": "bell\u0007"})",
+              "/name: has a control character in it"},
         Fault{R"({"op": "add", "path": "/vehicles/0/payload", "value": 1})",
               "/vehicles/0/payload: must be true or false, is a number"},
         Fault{R"({"op": "replace", "path": "", "value": []})", "must be an object, is an array"}));
