@@ -1,16 +1,19 @@
 #include "cli/geojson.h"
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "cli/geo_point.h"
+#include "config/json_reader.h"
 
 namespace skein::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Collections within collections are read by recursion.
+constexpr int kDeepest = 64;
 
 /// Collects the waypoints of one file.
 class Reader {
@@ -33,7 +36,7 @@ class Reader {
       ++points_;
     } else if (type == "LineString") {
       // What `path show` draws beside its waypoints is not a second path.
-      if (properties.value("flown", false)) return;
+      if (properties.value("flown", Json(false)) == true) return;
       AddLine(Member(object, "coordinates", place), properties, place + "/coordinates");
     } else if (type == "Polygon") {
       const Json& rings = Member(object, "coordinates", place);
@@ -148,12 +151,15 @@ Json Feature(Json geometry, Json properties) {
 }  // namespace
 
 PathFile ReadPathFile(const std::filesystem::path& file, const config::Origin& origin) {
-  std::ifstream stream(file);
-  if (!stream) throw config::ConfigError(file.string() + ": cannot be read");
+  const std::string text = config::ReadTextFile(file, "a path file");
+  const auto keep = [&](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeepest) throw config::ConfigError(file.string() + ": nests too deeply for GeoJSON");
+    return true;
+  };
   Json json;
   try {
-    json = Json::parse(stream);
-  } catch (const Json::parse_error& error) {
+    json = Json::parse(text, keep);
+  } catch (const Json::exception& error) {  // beside parse_error: numbers that are too large
     throw config::ConfigError(file.string() + ": is no JSON: " + error.what());
   }
   Reader reader(file.string(), origin);

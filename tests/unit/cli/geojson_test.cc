@@ -108,12 +108,22 @@ TEST_F(GeoJsonTest, TakesBackWhatItWrites) {
   }
 }
 
+TEST_F(GeoJsonTest, TakesALineWhoseFlownIsNoBooleanForAPath) {
+  const auto path = Read(R"({"type": "Feature", "properties": {"speed_m_s": 50, "flown": "no"}, "geometry":
+      {"type": "LineString", "coordinates": [[116, 40, 1100], [116, 40.01, 1100]]}})");
+  EXPECT_EQ(path.waypoints.size(), 2U);
+}
+
 TEST_F(GeoJsonTest, SaysWhatIsWrongAndWhere) {
   const auto line = [](const std::string& coordinates) {
     return R"({"type": "Feature", "properties": {"speed_m_s": 50}, "geometry": {"type": "LineString", "coordinates": )" +
            coordinates + "}}";
   };
   EXPECT_EQ(Refusal("{").find("is no JSON"), 0U);
+  EXPECT_EQ(Refusal("[1E999]").find("is no JSON"), 0U);
+  std::string deep;
+  for (int i = 0; i < 100'000; ++i) deep += R"({"type":"FeatureCollection","features":[)";
+  EXPECT_EQ(Refusal(deep), "nests too deeply for GeoJSON");
   EXPECT_EQ(Refusal("[]"), "must be an object");
   EXPECT_EQ(Refusal("{}"), "has no \"type\": this is no GeoJSON");
   EXPECT_EQ(Refusal(R"({"type": "MultiPoint"})"),
