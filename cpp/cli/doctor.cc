@@ -101,7 +101,7 @@ Finding OwnClock() {
 Finding Disk(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::path there = std::filesystem::absolute(folder);
-  while (!std::filesystem::exists(there) && there.has_relative_path()) there = there.parent_path();
+  while (!std::filesystem::exists(there, error) && there.has_relative_path()) there = there.parent_path();
   const auto space = std::filesystem::space(there, error);
   if (error) return {"disk", Health::kBad, folder.string() + ": " + error.message(), "name another --folder"};
   const std::string text = fmt::format("{:.1f} GB are free for recordings in {}",

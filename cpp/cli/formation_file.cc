@@ -37,6 +37,9 @@ formation_t ReadFormationFile(const std::filesystem::path& file) {
   const config::Object object(config::Value::FromFile(file),
                               {"id", "name", "control", "shape", "spacing_m", "lead_m", "leader", "slots",
                                "vehicles", "proximity", "gains", "path"});
+  if (const auto path = object.Find("path")) path->Refuse("is not taken from here: skein path upload");
+  if (const auto leader = object.Find("leader"))
+    leader->Refuse("is not taken from here: a leader flies on as it does");
   config::FormationConfig config = config::ReadFormationLaw(object, {});
   const bool custom = object.Has("slots") && !object.Has("shape");
   config.shape = custom ? Shape::kCustom : config::ReadShape(object.At("shape"));

@@ -24,6 +24,7 @@ class Reader {
     const std::string type = TextMember(object, "type", place);
     if (type == "FeatureCollection") {
       const Json& features = Member(object, "features", place);
+      if (!features.is_array()) Refuse(place + "/features", "must be an array");
       for (std::size_t i = 0; i < features.size(); ++i) {
         ReadObject(features[i], Json::object(), place + "/features/" + std::to_string(i));
       }

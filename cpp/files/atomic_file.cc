@@ -40,10 +40,23 @@ bool WriteAll(int descriptor, std::string_view bytes) {
   return true;
 }
 
-bool WriteThrough(const std::filesystem::path& file, std::string_view bytes, mode_t mode) {
+/// Gives a file to whoever has the one that it replaces: root changes tokens that web-bridge's own user
+/// reads.
+bool GiveToOwnerOf(const std::filesystem::path& old, int descriptor) {
+  struct stat owner {};
+  if (stat(old.c_str(), &owner) != 0) return true;  // there is none yet
+  struct stat own {};
+  if (fstat(descriptor, &own) != 0) return false;
+  if (own.st_uid == owner.st_uid && own.st_gid == owner.st_gid) return true;
+  // Only root may; for others it becomes their own, as ever.
+  return fchown(descriptor, owner.st_uid, owner.st_gid) == 0 || errno == EPERM;
+}
+
+bool WriteThrough(const std::filesystem::path& file, const std::filesystem::path& replaced,
+                  std::string_view bytes, mode_t mode) {
   const Descriptor fresh(file, O_WRONLY | O_CREAT | O_TRUNC, mode);
-  return fresh.ok() && fchmod(fresh.number(), mode) == 0 && WriteAll(fresh.number(), bytes) &&
-         fsync(fresh.number()) == 0;
+  return fresh.ok() && fchmod(fresh.number(), mode) == 0 && GiveToOwnerOf(replaced, fresh.number()) &&
+         WriteAll(fresh.number(), bytes) && fsync(fresh.number()) == 0;
 }
 
 }  // namespace
@@ -51,7 +64,7 @@ bool WriteThrough(const std::filesystem::path& file, std::string_view bytes, mod
 void WriteAtomically(const std::filesystem::path& file, std::string_view bytes, mode_t mode) {
   // A name of its own for each process: two that write at once do not write into one another's.
   const std::filesystem::path fresh = file.string() + ".new-" + std::to_string(getpid());
-  if (!WriteThrough(fresh, bytes, mode) || std::rename(fresh.c_str(), file.c_str()) != 0) {
+  if (!WriteThrough(fresh, file, bytes, mode) || std::rename(fresh.c_str(), file.c_str()) != 0) {
     const int error = errno;
     unlink(fresh.c_str());
     throw std::system_error(error, std::generic_category(), file.string() + ": cannot be written");

@@ -140,20 +140,28 @@ bool LogReader::Follows(std::uint64_t end) {
 std::optional<std::uint64_t> LogReader::FindMagic(std::uint64_t from, std::uint64_t end) {
   const std::uint64_t stop = std::min(end, log_.bytes_);
   while (from + kMagic.size() <= stop && search_bytes_ > 0) {
-    // Zeros of a sparse file are not even read.
-    const off_t data = lseek(log_.descriptor_, static_cast<off_t>(from), SEEK_DATA);
-    if (data < 0 && errno == ENXIO) return std::nullopt;
-    if (data > 0 && static_cast<std::uint64_t>(data) > from) {
-      from = static_cast<std::uint64_t>(data);
-      continue;
+    // What is left of the window first: where magic words are dense, each would read it anew.
+    const std::uint64_t window_end = window_offset_ + window_bytes_;
+    const bool in_window = from >= window_offset_ && from + kMagic.size() <= window_end;
+    if (!in_window) {
+      // Zeros of a sparse file are not even read.
+      const off_t data = lseek(log_.descriptor_, static_cast<off_t>(from), SEEK_DATA);
+      if (data < 0 && errno == ENXIO) return std::nullopt;
+      if (data > 0 && static_cast<std::uint64_t>(data) > from) {
+        from = static_cast<std::uint64_t>(data);
+        continue;
+      }
     }
-    const auto bytes = Window(from, std::min(kWindowBytes, stop - from));
+    const std::uint64_t left = in_window ? window_end - from : kWindowBytes;
+    const auto bytes = Window(from, std::min(left, stop - from));
     if (bytes.size() < kMagic.size()) return std::nullopt;
     const void* found = memmem(bytes.data(), bytes.size(), kMagic.data(), kMagic.size());
-    if (found) return from + static_cast<std::uint64_t>(static_cast<const std::byte*>(found) - bytes.data());
-    const std::uint64_t searched = bytes.size() - (kMagic.size() - 1);
+    const std::uint64_t searched =
+        found ? static_cast<std::uint64_t>(static_cast<const std::byte*>(found) - bytes.data())
+              : bytes.size() - (kMagic.size() - 1);
     from += searched;
-    search_bytes_ -= std::min(search_bytes_, searched);
+    search_bytes_ -= std::min(search_bytes_, found ? searched + 1 : searched);
+    if (found) return from;
   }
   return std::nullopt;
 }

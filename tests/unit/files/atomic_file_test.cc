@@ -40,6 +40,19 @@ TEST_F(AtomicFileTest, TheNewTakesThePlaceOfTheOldAndNothingElseIsLeft) {
   EXPECT_EQ(Files(), 1u);
 }
 
+TEST_F(AtomicFileTest, TheNewBelongsToWhoHadTheOld) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  const fs::path file = folder_ / "tokens";
+  WriteAtomically(file, "old");
+  ASSERT_EQ(chown(file.c_str(), 65534, 65533), 0);
+  WriteAtomically(file, "new", 0600);
+  struct stat status {};
+  ASSERT_EQ(stat(file.c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, 65534u);
+  EXPECT_EQ(status.st_gid, 65533u);
+  EXPECT_EQ(status.st_mode & 07777, 0600u);
+}
+
 TEST_F(AtomicFileTest, WhenItCannotBeWrittenTheOldIsStillThereAndTheReasonIsTold) {
   // A folder cannot be replaced by a file.
   const fs::path file = folder_ / "state";

@@ -128,6 +128,15 @@ TEST(LogFile, GivesUpOnAHugeSparseFileAtOnce) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(1));
 }
 
+TEST(LogFile, GivesUpOnNothingButMagicWordsSoon) {
+  std::string bytes;
+  for (int i = 0; i < 2'000'000; ++i) bytes += "\xED\xA1\xDA\x01";
+  const LogBytes file(bytes);
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_NE(ErrorOf(file.path()), "");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
 TEST(LogFile, JumpsOverAHugeHoleBetweenEvents) {
   const auto items = SomeItems(20);
   const std::string bytes = BytesOf(items);

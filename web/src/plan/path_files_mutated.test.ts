@@ -102,4 +102,4 @@ test.each(["geojson", "kml", "plan"] as const)("%s", (kind) => {
   }
   // Some do no harm, most do.
   expect(refused).toBeGreaterThan(kFiles / 10);
-});
+}, 60_000);
