@@ -239,6 +239,7 @@ void ShowStatus(Station& station, const StatusOptions& options, std::ostream& ou
       if (!options.json) out << kClearScreen;
       Print(picture, options, out);
       station.WaitUntil([] { return false; }, kWatchPeriod);
+      station.ForgetWhatIsOld();
     }
   } catch (const Interrupted&) {  // the way to end it
   }

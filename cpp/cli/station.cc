@@ -36,30 +36,66 @@ std::string OperatorName() {
 }
 
 Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)), outbox_(bus) {
-  bus::SubscribeChunks<fleet_roster_t>(bus, channel::kFleetRoster,
-                                       [this](const fleet_roster_t& roster, int missing) {
-                                         if (missing == 0) picture_.roster = roster;
-                                       });
-  bus::SubscribeChunks<fleet_state_t>(bus, channel::kFleetState,
-                                      [this](const fleet_state_t& state, int) { picture_.state = state; });
-  bus::SubscribeChunks<proximity_t>(bus, channel::kProximity, [this](const proximity_t& proximity, int) {
-    picture_.proximity = proximity;
-  });
-  bus::SubscribeChunks<link_status_t>(bus, channel::kLinkStatus,
-                                      [this](const link_status_t& links, int) { picture_.links = links; });
-  bus::SubscribeChunks<alarm_list_t>(bus, channel::kAlarms, [this](const alarm_list_t& list, int missing) {
-    if (missing == 0) picture_.alarms = list;
-  });
+  KeepWhole<fleet_roster_t>(channel::kFleetRoster, picture_.roster);
+  KeepNewest<fleet_state_t>(channel::kFleetState, picture_.state);
+  KeepNewest<proximity_t>(channel::kProximity, picture_.proximity);
+  KeepNewest<link_status_t>(channel::kLinkStatus, picture_.links);
+  KeepWhole<alarm_list_t>(channel::kAlarms, picture_.alarms);
   bus::SubscribeChunks<formation_status_t>(
       bus, channel::kFormationStatus,
-      [this](const formation_status_t& status, int) { picture_.statuses[status.formation_id] = status; });
-  bus.Subscribe<formation_t>(channel::kFormation, [this](const formation_t& formation) {
-    picture_.formations[formation.formation_id] = formation;
+      [this](const formation_status_t& status, int) { Keep(picture_.statuses, status); });
+  bus.Subscribe<formation_t>(channel::kFormation,
+                             [this](const formation_t& formation) { Keep(picture_.formations, formation); });
+  bus.Subscribe<path_t>(channel::kPath, [this](const path_t& path) { Keep(picture_.paths, path); });
+  bus.Subscribe<recording_status_t>(channel::kRecording, [this](const recording_status_t& status) {
+    picture_.recording = status;
+    heard_[{&picture_.recording, 0}] = bus_.executor().Now();
   });
-  bus.Subscribe<path_t>(channel::kPath,
-                        [this](const path_t& path) { picture_.paths[path.formation_id] = path; });
-  bus.Subscribe<recording_status_t>(
-      channel::kRecording, [this](const recording_status_t& status) { picture_.recording = status; });
+}
+
+template <typename Message>
+void Station::KeepNewest(const std::string& channel, std::optional<Message>& kept) {
+  bus::SubscribeChunks<Message>(bus_, channel, [this, &kept](const Message& message, int) {
+    kept = message;
+    heard_[{&kept, 0}] = bus_.executor().Now();
+  });
+}
+
+template <typename Message>
+void Station::KeepWhole(const std::string& channel, std::optional<Message>& kept) {
+  bus::SubscribeChunks<Message>(bus_, channel, [this, &kept](const Message& message, int missing) {
+    if (missing > 0) return;
+    kept = message;
+    heard_[{&kept, 0}] = bus_.executor().Now();
+  });
+}
+
+template <typename Message>
+void Station::Keep(std::map<int, Message>& kept, const Message& message) {
+  kept[message.formation_id] = message;
+  heard_[{&kept, message.formation_id}] = bus_.executor().Now();
+}
+
+void Station::ForgetWhatIsOld() {
+  const auto is_old = [&](const void* what, int formation_id) {
+    const auto heard = heard_.find({what, formation_id});
+    return heard == heard_.end() || bus_.executor().Now() - heard->second > kLongestPeriod;
+  };
+  const auto forget = [&](auto& kept) {
+    if (is_old(&kept, 0)) kept.reset();
+  };
+  const auto forget_each = [&](auto& kept) {
+    std::erase_if(kept, [&](const auto& entry) { return is_old(&kept, entry.first); });
+  };
+  forget(picture_.state);
+  forget(picture_.proximity);
+  forget(picture_.links);
+  forget(picture_.alarms);
+  forget(picture_.recording);
+  forget_each(picture_.formations);
+  forget_each(picture_.paths);
+  forget_each(picture_.statuses);
+  std::erase_if(heard_, [&](const auto& entry) { return is_old(entry.first.first, entry.first.second); });
 }
 
 bool Station::WaitUntil(const std::function<bool()>& seen, bus::Utime limit) {

@@ -71,6 +71,8 @@ class Station {
   Station(bus::Bus& bus, Run run);
 
   const Picture& picture() const { return picture_; }
+  /// What its sender no longer repeats is unknown again, or gone; the roster stays.
+  void ForgetWhatIsOld();
   bus::Bus& bus() { return bus_; }
 
   /// Runs until `seen` or until `limit` is over. Returns seen(). Throws Interrupted.
@@ -104,6 +106,13 @@ class Station {
   }
 
  private:
+  template <typename Message>
+  void KeepNewest(const std::string& channel, std::optional<Message>& kept);
+  template <typename Message>
+  void KeepWhole(const std::string& channel, std::optional<Message>& kept);
+  template <typename Message>
+  void Keep(std::map<int, Message>& kept, const Message& message);
+
   /// Well within what a receiver's buffer holds and CommandInbox remembers.
   static constexpr std::size_t kAtOnce = 50;
 
@@ -122,6 +131,8 @@ class Station {
   bus::Bus& bus_;
   Run run_;
   Picture picture_;
+  std::map<std::pair<const void*, int>, bus::Utime>
+      heard_;  ///< when: a member of the picture, and of which formation
   bus::CommandOutbox outbox_;
   std::optional<bus::Answer> answer_;  ///< to the last command
 };
