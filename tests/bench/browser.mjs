@@ -62,7 +62,9 @@ export async function move(page, until_ms) {
   await page.mouse.move(640, 300);
   for (let i = 0; Date.now() < until_ms; i += 1) {
     await page.mouse.down();
-    for (let k = 0; k < 10; k += 1) await page.mouse.move(640 + 15 * k * (i % 2 === 0 ? 1 : -1), 300 + 4 * k);
+    // There and back, so that the fleet stays in view.
+    const way = i % 2 === 0 ? 1 : -1;
+    for (let k = 0; k < 10; k += 1) await page.mouse.move(640 + 15 * k * way, 300 + 4 * k * way);
     await page.mouse.up();
     await page.mouse.move(640, 300);
     await page.mouse.wheel(0, i % 4 < 2 ? -60 : 60);

@@ -111,6 +111,13 @@ export function madeUpFleet(count) {
       text({ type: "hello", version: "bench", lcm_url: "", utime: utime(), tile_url: null, tile_attribution: "", tiles: null });
       const vehicles = Array.from({ length: count }, (_, i) => ({ id: i + 1, callsign: `UAV${i + 1}`, model: "default", has_payload: false }));
       text({ type: "roster", utime: utime(), scenario: `${count} UAVs`, start_utime: 1.7e15, origin: kOrigin, vehicles });
+      // Without them the page asks in the middle of the map for what does not run.
+      const beat = () => {
+        for (const heartbeat_node of ["fleet-simulator", "formation-controller", "collision-monitor"])
+          text({ type: "heartbeat", utime: utime(), heartbeat_node, gaps: 0, undecodable: 0 });
+      };
+      beat();
+      setInterval(beat, 1000);
       // What comes before it is shown at once, when this has come.
       text({ type: "complete" });
       setInterval(() => binary(motion()), count > 100 ? 200 : 100);
