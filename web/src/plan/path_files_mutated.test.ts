@@ -79,27 +79,31 @@ function parse(text: string): Document {
   }
 }
 
-test.each(["geojson", "kml", "plan"] as const)("%s", (kind) => {
-  const seed = Math.floor(Math.random() * 2 ** 31);
-  const told = (text: string) => `seed ${seed}:\n${text}`;
-  const random = randomFrom(seed);
-  const good = writePathFile(kind, kPlan, [], kFrame, "Alpha");
-  let refused = 0;
-  for (let i = 0; i < kFiles; i += 1) {
-    let text = mutated(good, random);
-    if (random() < 0.3) text = mutated(text, random);
-    try {
-      const { waypoints } = readPathFile(text, kFrame, kDefaults, parse);
-      expect(waypoints.length, told(text)).toBeGreaterThan(0);
-      for (const point of waypoints)
-        expect(Object.values(point).every(Number.isFinite), told(text)).toBe(true);
-    } catch (error) {
-      if (!(error instanceof PathFileError))
-        throw new Error(`${String(error)} of ${told(text)}`, { cause: error });
-      expect(error.message.length, told(text)).toBeGreaterThan(5);
-      refused += 1;
+test.each(["geojson", "kml", "plan"] as const)(
+  "%s",
+  (kind) => {
+    const seed = Math.floor(Math.random() * 2 ** 31);
+    const told = (text: string) => `seed ${seed}:\n${text}`;
+    const random = randomFrom(seed);
+    const good = writePathFile(kind, kPlan, [], kFrame, "Alpha");
+    let refused = 0;
+    for (let i = 0; i < kFiles; i += 1) {
+      let text = mutated(good, random);
+      if (random() < 0.3) text = mutated(text, random);
+      try {
+        const { waypoints } = readPathFile(text, kFrame, kDefaults, parse);
+        expect(waypoints.length, told(text)).toBeGreaterThan(0);
+        for (const point of waypoints)
+          expect(Object.values(point).every(Number.isFinite), told(text)).toBe(true);
+      } catch (error) {
+        if (!(error instanceof PathFileError))
+          throw new Error(`${String(error)} of ${told(text)}`, { cause: error });
+        expect(error.message.length, told(text)).toBeGreaterThan(5);
+        refused += 1;
+      }
     }
-  }
-  // Some do no harm, most do.
-  expect(refused).toBeGreaterThan(kFiles / 10);
-}, 60_000);
+    // Some do no harm, most do.
+    expect(refused).toBeGreaterThan(kFiles / 10);
+  },
+  60_000,
+);
