@@ -36,11 +36,11 @@ std::string OperatorName() {
 }
 
 Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)), outbox_(bus) {
-  KeepWhole<fleet_roster_t>(channel::kFleetRoster, picture_.roster);
-  KeepNewest<fleet_state_t>(channel::kFleetState, picture_.state);
-  KeepNewest<proximity_t>(channel::kProximity, picture_.proximity);
-  KeepNewest<link_status_t>(channel::kLinkStatus, picture_.links);
-  KeepWhole<alarm_list_t>(channel::kAlarms, picture_.alarms);
+  KeepLast<fleet_roster_t>(channel::kFleetRoster, picture_.roster, Parts::kAll);
+  KeepLast<fleet_state_t>(channel::kFleetState, picture_.state, Parts::kAny);
+  KeepLast<proximity_t>(channel::kProximity, picture_.proximity, Parts::kAny);
+  KeepLast<link_status_t>(channel::kLinkStatus, picture_.links, Parts::kAny);
+  KeepLast<alarm_list_t>(channel::kAlarms, picture_.alarms, Parts::kAll);
   bus::SubscribeChunks<formation_status_t>(
       bus, channel::kFormationStatus,
       [this](const formation_status_t& status, int) { Keep(picture_.statuses, status); });
@@ -54,17 +54,9 @@ Station::Station(bus::Bus& bus, Run run) : bus_(bus), run_(std::move(run)), outb
 }
 
 template <typename Message>
-void Station::KeepNewest(const std::string& channel, std::optional<Message>& kept) {
-  bus::SubscribeChunks<Message>(bus_, channel, [this, &kept](const Message& message, int) {
-    kept = message;
-    heard_[{&kept, 0}] = bus_.executor().Now();
-  });
-}
-
-template <typename Message>
-void Station::KeepWhole(const std::string& channel, std::optional<Message>& kept) {
-  bus::SubscribeChunks<Message>(bus_, channel, [this, &kept](const Message& message, int missing) {
-    if (missing > 0) return;
+void Station::KeepLast(const std::string& channel, std::optional<Message>& kept, Parts parts) {
+  bus::SubscribeChunks<Message>(bus_, channel, [this, &kept, parts](const Message& message, int missing) {
+    if (missing > 0 && parts == Parts::kAll) return;
     kept = message;
     heard_[{&kept, 0}] = bus_.executor().Now();
   });

@@ -106,10 +106,10 @@ class Station {
   }
 
  private:
+  /// Whether a set of chunks of which some were lost is better than none.
+  enum class Parts { kAll, kAny };
   template <typename Message>
-  void KeepNewest(const std::string& channel, std::optional<Message>& kept);
-  template <typename Message>
-  void KeepWhole(const std::string& channel, std::optional<Message>& kept);
+  void KeepLast(const std::string& channel, std::optional<Message>& kept, Parts parts);
   template <typename Message>
   void Keep(std::map<int, Message>& kept, const Message& message);
 
