@@ -151,7 +151,7 @@ class Flight:
         return found
 
     def start(self):
-        self.route.add_if_missing()
+        self.route.hold()
         for process in self.processes:
             if process is not self.simulator:
                 process.start()
@@ -201,7 +201,7 @@ class Flight:
             for process in group:
                 if process.child:
                     process.await_end(deadline)
-        self.route.remove()
+        self.route.release()
         for file, count, size in self.recordings():
             files = "" if count == 1 else f" in {count} files"
             say(f"The log is {os.path.relpath(file)} ({size / 1e6:.1f} MB{files}); scripts/replay plays it")

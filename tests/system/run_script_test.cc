@@ -218,5 +218,26 @@ TEST_F(RunScriptTest, MakesTheMissingMulticastRouteAndTakesItBack) {
   EXPECT_NE(host.output().find("route is gone"), std::string::npos) << host.output();
 }
 
+TEST_F(RunScriptTest, LeavesTheMulticastRouteToWhoeverStillNeedsIt) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, for a network of its own";
+  // Two that need it, of which the one that added it ends first; then one that was killed with its route
+  // there.
+  const Finished host = RunToEnd({"unshare", "--net", "bash", "-c", R"(
+ip link set lo up
+program=$0
+hold() { coproc route { exec "$program" 'udpm://239.255.76.67:7667?ttl=0'; }; read -r _ <&"${route[0]}"; }
+there() { ip route get 239.255.76.67 >/dev/null 2>&1 && echo "$1: there" || echo "$1: gone"; }
+hold; first=${route[1]} first_pid=$route_PID
+{ hold; } 2>/dev/null; second=${route[1]} second_pid=$route_PID
+exec {first}>&-; wait $first_pid; there 'first ended'
+exec {second}>&-; wait $second_pid; there 'second ended'
+{ hold; } 2>/dev/null; kill -9 $route_PID; wait; there 'killed'
+{ hold; } 2>/dev/null; last=${route[1]} last_pid=$route_PID; exec {last}>&-; wait $last_pid; there 'next ended')",
+                                  std::string(SKEIN_SOURCE_DIR) + "/scripts/lib/multicast_route.py"},
+                                 20s);
+  for (const char* state : {"first ended: there", "second ended: gone", "killed: there", "next ended: gone"})
+    EXPECT_NE(host.output.find(state), std::string::npos) << state << " in:\n" << host.output;
+}
+
 }  // namespace
 }  // namespace skein::testing
