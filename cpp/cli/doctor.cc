@@ -63,19 +63,37 @@ std::vector<std::string> OutsideAddresses() {
   return found;
 }
 
-/// Whether deploy/nftables/skein.nft is in force; only root can tell.
-bool HasRule() { return std::system("nft list chain inet skein input >/dev/null 2>&1") == 0; }
+/// Whether deploy/nftables/skein.nft, or one made from it, keeps strangers from this port; only root can
+/// tell.
+bool HasRuleFor(int port) {
+  // nft lists a single port as such, several in braces.
+  const std::string look = fmt::format(
+      "nft list chain inet skein input 2>/dev/null |"
+      " grep -Eq '^[[:space:]]*udp dport ({0}|[{{]([^}}]*[ ,])?{0}[ ,][^}}]*[}}]) .*drop$'",
+      port);
+  return std::system(look.c_str()) == 0;
+}
+
+int PortOf(const std::string& udpm_url) {
+  const std::size_t colon = udpm_url.find(':', std::string("udpm://").size());
+  // As LCM reads it.
+  return colon == std::string::npos ? 7667
+                                    : static_cast<int>(std::strtol(udpm_url.c_str() + colon + 1, nullptr, 0));
+}
 
 Finding Exposure(const std::string& url) {
   const bool udp = url.starts_with("udpm://");
   if (!udp) return {"exposure", Health::kGood, "the bus is " + url + ": who reaches that reaches the bus"};
   const std::vector<std::string> addresses = OutsideAddresses();
   if (addresses.empty()) return {"exposure", Health::kGood, "nobody else reaches this host"};
-  if (HasRule())
-    return {"exposure", Health::kGood, "the rule of deploy/nftables keeps the bus to named hosts"};
+  const int port = PortOf(url);
+  if (HasRuleFor(port)) {
+    return {"exposure", Health::kGood,
+            fmt::format("the rule of deploy/nftables keeps the bus, port {}, to named hosts", port)};
+  }
   return {"exposure", Health::kCouldBeBetter,
-          fmt::format("LCM listens on all addresses ({}), and whoever reaches its port commands the fleet",
-                      fmt::join(addresses, ", ")),
+          fmt::format("LCM listens on all addresses ({}), and whoever reaches its port {} commands the fleet",
+                      fmt::join(addresses, ", "), port),
           "deploy/README.md: a network of its own for one host, a firewall rule for several"};
 }
 

@@ -115,8 +115,8 @@ void RunOrSkip(const std::vector<std::string>& command) {
 }
 
 TEST(NftRule, LetsNamedHostsOnTheBusAlone) {
-  RunOrSkip(
-      {"bash", std::string(SKEIN_SOURCE_DIR) + "/tests/system/nft_rule.sh", kDeploy / "nftables/skein.nft"});
+  RunOrSkip({"bash", std::string(SKEIN_SOURCE_DIR) + "/tests/system/nft_rule.sh",
+             kDeploy / "nftables/skein.nft", Program("skein")});
 }
 
 TEST(TlsProxy, ServesThePageItsApiAndItsLiveLinkOnOnePort) {

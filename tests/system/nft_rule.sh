@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Three hosts on one network: the station with the rule, one that it names, one that it does not. Needs root.
 #
-#   nft_rule.sh deploy/nftables/skein.nft
+#   nft_rule.sh deploy/nftables/skein.nft build/bin/skein
 set -euo pipefail
 rule=$1
+skein=$2
 name=skein-nft-$$
 
 ((EUID == 0)) || { echo "needs root" && exit 77; }
@@ -28,7 +29,7 @@ for host in station named stranger; do
   ip -n "$name-$host" link set lo up
   ip -n "$name-$host" link set eth0 up
 done
-ip -n "$name-station" addr add 192.0.2.1/24 dev eth0
+ip -n "$name-station" addr add 192.0.2.11/24 dev eth0
 ip -n "$name-named" addr add 192.0.2.10/24 dev eth0
 ip -n "$name-stranger" addr add 192.0.2.99/24 dev eth0
 ip netns exec "$name-station" nft -f "$rule"
@@ -53,7 +54,7 @@ read -r line <&"$hear"
 send() {
   ip netns exec "$name-$1" python3 -c '
 import socket, sys
-socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(sys.argv[1].encode(), ("192.0.2.1", 7667))' "$1 $2"
+socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(sys.argv[1].encode(), ("192.0.2.11", 7667))' "$1 $2"
 }
 send named 1
 send stranger 1
@@ -63,3 +64,12 @@ heard=$(cat <&"$hear")
 dropped=$(ip netns exec "$name-station" nft list chain inet skein input | grep -oE 'packets [0-9]+' | head -n 1)
 printf 'heard:\n%s\ndropped: %s\n' "$heard" "$dropped"
 [[ $heard == $'named 1\nnamed 2' && $dropped == "packets 2" ]]
+
+# What the doctor says of the port that the rule names, and of another one.
+ip -n "$name-station" route add 224.0.0.0/4 dev eth0
+exposure() {
+  ip netns exec "$name-station" "$skein" --lcm-url "udpm://239.255.76.67:$1?ttl=1" doctor --json |
+    python3 -c 'import json, sys; print(*(f["health"] for f in json.load(sys.stdin) if f["about"] == "exposure"))'
+}
+[[ $(exposure 7667) == good ]] || { echo "the doctor does not see the rule" && exit 1; }
+[[ $(exposure 7668) != good ]] || { echo "the doctor takes the rule for that of another port" && exit 1; }
