@@ -136,7 +136,10 @@ class DropRun {
       // One that fails is still under way, so that Stop() tries once more.
       if (HasHook()) CallHook(options_.hook, "end", active.number, active.drop);
       active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));
-      if (HasHook()) continue;
+      if (HasHook()) {
+        BeginAgainBeside(active.drop);
+        continue;
+      }
       const int id = std::stoi(active.drop.vehicle);
       if (!manual_.contains(id)) continue;
       QueueState(id, active.end);
@@ -144,6 +147,14 @@ class DropRun {
         return other.drop.vehicle == active.drop.vehicle;
       });
       if (!goes_on) manual_.erase(id);
+    }
+  }
+
+  /// The end of one drop lifted those that share its wire, too: a hook knows of one at a time.
+  void BeginAgainBeside(const Drop& ended) {
+    for (const auto& [number, drop, start, end] : active_) {
+      const bool shares = drop.vehicle == ended.vehicle || drop.vehicle == "all" || ended.vehicle == "all";
+      if (shares) CallHook(options_.hook, "begin", number, drop);
     }
   }
 

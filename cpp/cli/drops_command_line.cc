@@ -75,10 +75,11 @@ void CommandLine::AddDrops() {
       ->check(bus::Positive())
       ->capture_default_str();
   drops
-      ->add_option("--hook", drops_.hook,
-                   "Instead of CMD_LINK call this program: begin|end NUMBER UAV DIRECTION LOSS DELAY_S; UAV "
-                   "may be none, "
-                   "too: nobody's link is to suffer")
+      ->add_option(
+          "--hook", drops_.hook,
+          "Instead of CMD_LINK call this program: begin|end NUMBER UAV DIRECTION LOSS DELAY_S; UAV "
+          "may be none, too: nobody's link is to suffer. After the end of one, begin comes again for "
+          "others of the UAV that go on")
       ->type_name("PROGRAM");
   drops->add_flag("--json", drops_.json, "The report as JSON, at the end");
   drops->footer(

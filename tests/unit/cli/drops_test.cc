@@ -239,6 +239,13 @@ TEST_F(DropsTest, LetsAHookBeginAtOnce) {
   EXPECT_EQ(ReadCalls(), "begin 1\nend 1\nbegin 1\nend 1\n");
 }
 
+TEST_F(DropsTest, LetsAHookBeginAgainWhatTheEndOfAnotherDropLifted) {
+  StartFleet(2);
+  const std::string list = Write("list.csv", "at_s,uav,for_s\n0,none,9\n1,2,4\n2,none,2\n");
+  EXPECT_EQ(Drops({"--list", list, "--from-now", "--hook", Hook("")}), "");
+  EXPECT_EQ(ReadCalls(), "begin 1\nbegin 2\nbegin 3\nend 3\nbegin 1\nend 2\nend 1\n");
+}
+
 TEST_F(DropsTest, EndsEveryDropOfAHookThatFailsAndSaysWhyItStopped) {
   StartFleet(2);
   const std::string list = Write("list.csv", "at_s,uav,for_s\n0,none,50\n1,none,50\n2,none,50\n");
