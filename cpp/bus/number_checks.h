@@ -3,7 +3,6 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
-#include <limits>
 #include <string>
 
 /// What a number on a command line must be, said in words. CLI11's own checks let "nan" through, and tell of
@@ -26,11 +25,11 @@ inline CLI::Validator NumberCheck(double least, double most, const std::string& 
 inline CLI::Validator Between(double least, double most) {
   return NumberCheck(least, most, fmt::format("{:g} .. {:g}", least, most));
 }
-inline CLI::Validator NotNegative() {
-  return NumberCheck(0, std::numeric_limits<double>::max(), "0 or more");
-}
-inline CLI::Validator Positive() {
-  return NumberCheck(0, std::numeric_limits<double>::max(), "above 0", true);
-}
+
+/// As seconds these are 31 years: more means nothing, and much more does not fit into microseconds.
+inline constexpr double kMost = 1e9;
+
+inline CLI::Validator NotNegative() { return NumberCheck(0, kMost, "0 .. 1e9"); }
+inline CLI::Validator Positive() { return NumberCheck(0, kMost, "above 0, and at most 1e9", true); }
 
 }  // namespace skein::bus

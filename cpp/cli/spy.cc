@@ -22,8 +22,6 @@ constexpr bus::Utime kTablePeriod = bus::kSecond;
 constexpr bus::Utime kMessagePeriod = bus::kSecond / 5;
 constexpr std::size_t kMostWaiting = 10'000;
 
-// Home and clear to the end: no flicker.
-
 /// A message of a channel is wanted when a field of it has a value.
 class Filter {
  public:

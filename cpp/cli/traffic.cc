@@ -58,10 +58,13 @@ class ChunkWatch : public TypeWatch {
 
 /// Every node numbers its own.
 class EventWatch : public TypeWatch {
+  static constexpr std::size_t kMostNodes = 1'000;  ///< names can be invented
+
  public:
   bool Hear(const void* data, std::size_t size) override {
     const auto event = bus::Decode<event_t>(data, size);
     if (!event || !Good(*event)) return false;
+    if (last_.size() >= kMostNodes && !last_.contains(event->event_node)) return true;
     const auto [last, is_new] = last_.try_emplace(event->event_node, event->event_sequence);
     // A smaller one is that of a node which was started anew.
     if (!is_new) gaps_ += std::max<std::int64_t>(0, event->event_sequence - last->second - 1);
@@ -138,6 +141,10 @@ std::optional<double> ChannelTraffic::jitter_s() const {
 }
 
 void Traffic::Hear(bus::Utime now, const std::string& channel, const void* data, std::size_t size) {
+  if (channels_.size() >= kMostChannels && !channels_.contains(channel)) {
+    ++beyond_;
+    return;
+  }
   ChannelTraffic& heard = channels_[channel];
   heard.fingerprint = Fingerprint(data, size);
   heard.type = TypeName(heard.fingerprint);
@@ -189,8 +196,11 @@ std::string TrafficTable(const Traffic& traffic, bus::Utime now, std::size_t wid
              : fmt::format("{}-{}", channel.least_bytes, channel.most_bytes),
          jitter_s ? Number(*jitter_s * 1e3) : "-", std::to_string(channel.count), TypeOf(channel)});
   }
-  table.push_back(
-      {"all", Number(sum.messages_s), Number(sum.bytes_s / 1e3), "", "", "", "", std::to_string(count), ""});
+  if (traffic.beyond() > 0) {
+    table.push_back({"(further channels)", "", "", "", "", "", "", std::to_string(traffic.beyond()), ""});
+  }
+  table.push_back({"all", Number(sum.messages_s), Number(sum.bytes_s / 1e3), "", "", "", "",
+                   std::to_string(count + traffic.beyond()), ""});
   const auto too_wide = [&](const std::string& text) {
     for (std::size_t begin = 0; begin < text.size(); begin = text.find('\n', begin) + 1) {
       if (text.find('\n', begin) - begin > width) return true;
@@ -228,7 +238,8 @@ nlohmann::ordered_json TrafficJson(const Traffic& traffic, bus::Utime now) {
   }
   return {{"utime", now},
           {"listened_s", static_cast<double>(now - traffic.start()) / bus::kSecond},
-          {"channels", std::move(channels)}};
+          {"channels", std::move(channels)},
+          {"messages_on_further_channels", traffic.beyond()}};
 }
 
 }  // namespace skein::cli

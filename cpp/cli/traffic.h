@@ -56,6 +56,9 @@ class Traffic {
   /// several.
   static constexpr bus::Utime kBurst = 5'000;
 
+  /// Whoever reaches the bus can invent names: messages of further channels are only counted.
+  static constexpr std::size_t kMostChannels = 1'000;
+
   explicit Traffic(bus::Utime start) : start_(start) {}
 
   void Hear(bus::Utime now, const std::string& channel, const void* data, std::size_t size);
@@ -69,10 +72,13 @@ class Traffic {
   std::optional<Rate> RateOf(const ChannelTraffic& channel, bus::Utime now) const;
 
   const std::map<std::string, ChannelTraffic>& channels() const { return channels_; }
+  /// Messages on channels beyond kMostChannels.
+  std::int64_t beyond() const { return beyond_; }
   bus::Utime start() const { return start_; }
 
  private:
   bus::Utime start_;
+  std::int64_t beyond_ = 0;
   std::map<std::string, ChannelTraffic> channels_;
 };
 

@@ -128,7 +128,7 @@ void Describe(CLI::App& app, Arguments& arguments) {
       ->check(bus::Between(0.05, 1e6))
       ->type_name("S");
   app.add_option("--seed", arguments.seed, "Of lossy and jittered links, and of --vary and --runs")
-      ->check(bus::NotNegative())
+      ->check(bus::NumberCheck(0, 0x1p64, "0 or more"))
       ->capture_default_str()
       ->type_name("N");
   auto* vary = app.add_flag("--vary", arguments.vary,

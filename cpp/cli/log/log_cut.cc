@@ -57,9 +57,15 @@ void CutLog(const LogCutOptions& options, std::ostream& out) {
     return output.stream().good();
   });
   if (messages == 0) {
+    const double from_s = options.window.from_s;
+    // The last message that was read may lie beyond the window.
     throw config::ConfigError(
-        fmt::format("{}: there is nothing from {:g} s on; the recording is {:.1f} s long", options.file,
-                    options.window.from_s, end_s));
+        options.window.IsPast(end_s)
+            ? fmt::format(
+                  "{}: nothing was recorded from {:g} s to {:g} s; before and after there is something",
+                  options.file, from_s, *options.window.to_s)
+            : fmt::format("{}: there is nothing from {:g} s on; the recording is {:.1f} s long", options.file,
+                          from_s, end_s));
   }
   output.Finish();
   source.TellProblems();

@@ -232,6 +232,10 @@ TEST_F(LogTest, RefusesACutThatHoldsNothing) {
   EXPECT_NE(Refusal({"cut", flight(), "--from", "50", "--out", In("never.lcm")})
                 .find("the recording is 40.0 s long"),
             std::string::npos);
+  const std::string gap =
+      "nothing was recorded from 20.001 s to 20.002 s; before and after there is something";
+  EXPECT_EQ(Refusal({"cut", flight(), "--from", "20.001", "--to", "20.002", "--out", In("never.lcm")}),
+            flight() + ": " + gap);
   EXPECT_EQ(Refusal({"cut", flight(), "--from", "9", "--to", "8", "--out", In("never.lcm")}),
             "--to must be later than --from");
   EXPECT_FALSE(std::filesystem::exists(In("never.lcm")));
@@ -354,10 +358,11 @@ TEST_F(LogTest, SaysInWordsWhatANumberMustBe) {
     }
     return std::string();
   };
-  EXPECT_EQ(wrong({"cut", flight(), "--from", "-5", "--out", "x"}), "--from: must be 0 or more, is -5");
-  EXPECT_EQ(wrong({"cut", flight(), "--to", "nan", "--out", "x"}), "--to: must be 0 or more, is nan");
+  EXPECT_EQ(wrong({"cut", flight(), "--from", "-5", "--out", "x"}), "--from: must be 0 .. 1e9, is -5");
+  EXPECT_EQ(wrong({"cut", flight(), "--from", "1e300", "--out", "x"}), "--from: must be 0 .. 1e9, is 1e300");
+  EXPECT_EQ(wrong({"cut", flight(), "--to", "nan", "--out", "x"}), "--to: must be 0 .. 1e9, is nan");
   EXPECT_EQ(wrong({"csv", flight(), "--channel", "EVENT", "--from", "soon"}),
-            "--from: must be 0 or more, is soon");
+            "--from: must be 0 .. 1e9, is soon");
   EXPECT_EQ(wrong({"events", flight(), "--least", "bogus"}),
             "--least: must be info, advisory, caution or warning, is bogus");
   EXPECT_EQ(wrong({"events", flight(), "--least", "Caution"}), "");

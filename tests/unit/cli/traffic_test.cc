@@ -132,6 +132,18 @@ TEST_F(TrafficTest, ShowsNoNameThatATerminalObeys) {
   EXPECT_EQ(table.find('\x1b'), std::string::npos);
 }
 
+TEST_F(TrafficTest, OnlyCountsWhatComesOnInventedChannelsWithoutEnd) {
+  for (int i = 0; i < 3'000; ++i) Hear(kStart, "CHANNEL_" + std::to_string(i), State(0));
+  Hear(kStart, "CHANNEL_0", State(1));
+  EXPECT_EQ(traffic_.channels().size(), Traffic::kMostChannels);
+  EXPECT_EQ(traffic_.beyond(), 2'000);
+  EXPECT_EQ(At("CHANNEL_0").count, 2) << "a known one is followed as before";
+  const std::string table = TrafficTable(traffic_, kStart + bus::kSecond, 0);
+  EXPECT_NE(table.find("(further channels)"), std::string::npos);
+  EXPECT_NE(table.find("3001"), std::string::npos) << "the sum counts all";
+  EXPECT_EQ(TrafficJson(traffic_, kStart)["messages_on_further_channels"], 2'000);
+}
+
 TEST_F(TrafficTest, LeavesColumnsOutWhereTheTerminalIsNarrow) {
   Hear(kStart, "FLEET_STATE", State(1));
   const std::string wide = TrafficTable(traffic_, kStart + bus::kSecond, 0);
