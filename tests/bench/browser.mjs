@@ -57,16 +57,18 @@ export function serve(dist) {
   return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
 }
 
-/** Drags the map about and turns the wheel, without a pause. */
+/** Drags the map about and turns the wheel, without a pause, and always back to where it was: so the fleet stays in view. */
 export async function move(page, until_ms) {
   await page.mouse.move(640, 300);
   for (let i = 0; Date.now() < until_ms; i += 1) {
     await page.mouse.down();
-    // There and back, so that the fleet stays in view.
+    // A loop, to one side and then to the other: what the map glides on after it goes up and down in turn.
     const way = i % 2 === 0 ? 1 : -1;
-    for (let k = 0; k < 10; k += 1) await page.mouse.move(640 + 15 * k * way, 300 + 4 * k * way);
+    for (let k = 0; k <= 20; k += 1) {
+      const turn = (2 * Math.PI * k) / 20;
+      await page.mouse.move(640 + 70 * (1 - Math.cos(turn)) * way, 300 + 40 * Math.sin(turn) * way);
+    }
     await page.mouse.up();
-    await page.mouse.move(640, 300);
     await page.mouse.wheel(0, i % 4 < 2 ? -60 : 60);
   }
 }
