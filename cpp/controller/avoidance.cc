@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <skein/event_t.hpp>
+#include <utility>
+#include <vector>
 
 namespace skein::controller {
 
@@ -40,13 +42,16 @@ std::vector<FlightEvent> Avoidance::Update(const std::vector<MemberObservation>&
                                            const std::vector<Traffic>& strangers,
                                            const AirspaceLimits& limits, double step_s) {
   std::vector<FlightEvent> events;
-  std::map<int, Member> present;
+  std::vector<int> heard;
+  std::vector<std::pair<int, Member>> joined;
   for (const MemberObservation& seen : members) {
     if (!seen.heard) continue;
-    const auto known = members_.find(seen.id);
-    present.emplace(seen.id, known == members_.end() ? NewMember(seen, limits) : known->second);
+    heard.push_back(seen.id);
+    if (!members_.contains(seen.id)) joined.emplace_back(seen.id, NewMember(seen, limits));
   }
-  members_ = std::move(present);
+  std::ranges::sort(heard);
+  std::erase_if(members_, [&](const auto& entry) { return !std::ranges::binary_search(heard, entry.first); });
+  members_.insert(joined.begin(), joined.end());
 
   for (const MemberObservation& seen : members) {
     if (seen.heard) UpdateRole(seen, members_.at(seen.id), limits, events);

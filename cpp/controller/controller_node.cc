@@ -1,7 +1,6 @@
 #include "controller/controller_node.h"
 
 #include <algorithm>
-#include <unordered_set>
 
 #include "bus/channels.h"
 #include "bus/chunks.h"
@@ -133,13 +132,14 @@ void FormationControllerNode::OnFleetState(const fleet_state_t& state) {
 }
 
 std::vector<FlightCommand> FormationControllerNode::HoldTheRest() {
-  std::unordered_set<int> flown;
+  std::vector<int> flown;
   for (const auto& [id, flight] : flights_) {
-    for (const Slot& slot : flight.config().slots) flown.insert(slot.vehicle_id);
+    for (const Slot& slot : flight.config().slots) flown.push_back(slot.vehicle_id);
   }
+  std::ranges::sort(flown);
   std::vector<FlightCommand> commands;
   for (const auto& [id, view] : fleet_) {
-    if (flown.contains(id) || !view.state) {
+    if (!view.state || std::ranges::binary_search(flown, id)) {
       held_.erase(id);
       continue;
     }

@@ -31,6 +31,7 @@ void VehicleView::TakeClock(bus::Utime tick_utime) {
 VehicleState VehicleView::At(bus::Utime utime) const {
   assert(state);
   VehicleState moved = *state;
+  if (utime == state_utime) return moved;  // as most are at a tick
   const double seconds = bus::ToSeconds(utime - state_utime);
   // Without commands a UAV levels off after a second, through its own autopilot's lag: eq. (1) with mu_c = 0.
   // From a climb at 10 m/s that is another 110 m, more than a cylinder is high.

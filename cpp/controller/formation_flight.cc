@@ -61,6 +61,7 @@ FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
   const double step_s = utime_ == 0 ? 0 : bus::ToSeconds(utime - utime_);
   utime_ = utime;
   leader_.AdvanceTo(bus::ToSeconds(utime));
+  here_ = leader_.path().At(leader_.arc_m());
 
   std::vector<MemberObservation> observations;
   for (auto& [id, member] : members_) {
@@ -146,14 +147,13 @@ double FormationFlight::ClimbRate(const FleetPicture& fleet) const {
   constexpr double kFastest = 10;  // [m/s]
   constexpr double kSlowest = 2;   // [m/s]
   constexpr double kShare = 0.8;   // of the steepest climb; the rest is left to control
-  const PathPoint here = leader_.path().At(leader_.arc_m());
   double rate = kFastest;
   for (const auto& [id, member] : members_) {
     const auto view = fleet.find(id);
     if (view == fleet.end() || !view->second.state) continue;
     const double steepest =
         view->second.state->speed_m_s * std::sin(kShare * view->second.model.envelope.max_climb_rad);
-    rate = std::min(rate, steepest - std::abs(here.speed_m_s * here.up_slope));
+    rate = std::min(rate, steepest - std::abs(here_.speed_m_s * here_.up_slope));
   }
   return std::max(rate, kSlowest);
 }
@@ -195,7 +195,9 @@ LawOutput FormationFlight::Fly(Member& member, const VehicleView& view, const Al
   if (auto* law = std::get_if<SkeinLaw>(&member.law)) {
     const AltitudeOffset then{offset.height_m - offset.rate_m_s * age, offset.rate_m_s,
                               offset.acceleration_m_s2};
-    SlotReference slot = SlotOnPath(leader_.path(), arc, member.slot, then);
+    // Telemetry of this very tick finds the slot worked out already.
+    const bool is_planned = arc == here_.arc_m && then == AltitudeOffset{};
+    SlotReference slot = is_planned ? member.planned : SlotOnPath(leader_.path(), arc, member.slot, then);
     if (avoidance_.changing_level(view.id)) slot = StraightOn(slot, *view.state, view.model.envelope);
     return law->Control(slot, *view.state, view.model, step_s);
   }
@@ -226,7 +228,7 @@ LawOutput FormationFlight::HoldLost(Member& member, const VehicleView& view) con
 }
 
 SlotReference FormationFlight::PlaceOf(const SlotOffset& slot, const AltitudeOffset& offset) const {
-  if (config_.control != "paper") return SlotOnPath(leader_.path(), leader_.arc_m(), slot, offset);
+  if (config_.control != "paper") return SlotOnPath(leader_.path(), here_, slot, offset);
   // The paper's slots are rigid in the leader's own frame.
   const VehicleState leader = LeaderState(leader_.path(), leader_.arc_m(), offset);
   SlotReference place;

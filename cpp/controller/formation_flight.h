@@ -128,6 +128,7 @@ class FormationFlight {
   std::optional<PathBeforeHold> before_hold_;
   std::int64_t path_revision_ = 1;
   bus::Utime utime_ = 0;
+  PathPoint here_;  ///< of the leader at utime_
   std::int8_t mode_ = formation_status_t::MODE_WAITING;
   bus::Utime mode_utime_ = 0;
   bus::Utime mode_end_utime_ = 0;

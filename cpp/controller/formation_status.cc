@@ -66,11 +66,12 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
   }
   const double whole_m = climb_to_m_ - climb_from_m_;
   const double left_m = climb_to_m_ - body.now().height_m;
-  const std::string climb = ClimbText(whole_m, left_m);
-  const std::string level = body.target_m() == 0
-                                ? "at the planned altitude"
-                                : fmt::format("{:.0f} m {} the planned altitude", std::abs(body.target_m()),
-                                              body.target_m() > 0 ? "above" : "below");
+  const auto level = [&]() -> std::string {
+    if (body.target_m() == 0) return "at the planned altitude";
+    return fmt::format("{:.0f} m {} the planned altitude", std::abs(body.target_m()),
+                       body.target_m() > 0 ? "above" : "below");
+  };
+  const auto level_or_climb = [&] { return body.settled() ? level() : ClimbText(whole_m, left_m); };
   const bool loiters =
       before_hold_ || (!leader_.path().closed() && leader_.arc_m() > leader_.path().end_arc_m() &&
                        leader_.path().At(leader_.arc_m()).curvature_per_m != 0);
@@ -81,18 +82,18 @@ void FormationFlight::UpdateMode(const FleetPicture& fleet) {
     mode_text_ = "waiting for telemetry";
   } else if (!lost.empty()) {
     mode = formation_status_t::MODE_AVOIDING;
-    mode_text_ = fmt::format("{}: link of {} lost", body.settled() ? level : climb, lost);
+    mode_text_ = fmt::format("{}: link of {} lost", level_or_climb(), lost);
     if (avoidance_.blocked()) mode_text_ += "; no altitude is free";
   } else if (!rejoining.empty()) {
     mode = formation_status_t::MODE_REJOINING;
-    mode_text_ = fmt::format("{}: {} rejoins, {} from its slot", body.settled() ? level : climb, rejoining,
+    mode_text_ = fmt::format("{}: {} rejoins, {} from its slot", level_or_climb(), rejoining,
                              Distance(rejoin_distance));
   } else if (avoidance_.active() && !body.settled()) {
     mode = formation_status_t::MODE_REJOINING;
     mode_text_ = ClimbText(whole_m, left_m, " to the planned altitude");
   } else if (avoidance_.blocked()) {
     mode = formation_status_t::MODE_REJOINING;
-    mode_text_ = level + ": other traffic is in the way to the planned altitude";
+    mode_text_ = level() + ": other traffic is in the way to the planned altitude";
   } else if (loiters) {
     mode = formation_status_t::MODE_HOLDING;
     mode_text_ = before_hold_ ? "loitering: hold" : "loitering: end of its path";

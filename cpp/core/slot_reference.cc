@@ -8,8 +8,12 @@ namespace skein {
 
 SlotReference SlotOnPath(const Path& path, double leader_arc_m, const SlotOffset& slot,
                          const AltitudeOffset& offset) {
-  const PathPoint leader = path.At(leader_arc_m);
-  const PathPoint beside = path.At(leader_arc_m + slot.forward_m);
+  return SlotOnPath(path, path.At(leader_arc_m), slot, offset);
+}
+
+SlotReference SlotOnPath(const Path& path, const PathPoint& leader, const SlotOffset& slot,
+                         const AltitudeOffset& offset) {
+  const PathPoint beside = path.At(leader.arc_m + slot.forward_m);
   const double leader_speed = leader.speed_m_s;
   const double leader_acceleration = leader_speed * leader.speed_slope_per_s;
   const double stretch = 1 - beside.curvature_per_m * slot.left_m;

@@ -27,6 +27,9 @@ struct SlotReference {
 /// @param offset is added to the planned altitude; it is the same for every slot at the same instant.
 SlotReference SlotOnPath(const Path& path, double leader_arc_m, const SlotOffset& slot,
                          const AltitudeOffset& offset);
+/// The same for one slot after the other. @param leader is path.At(leader_arc_m).
+SlotReference SlotOnPath(const Path& path, const PathPoint& leader, const SlotOffset& slot,
+                         const AltitudeOffset& offset);
 
 /// The virtual leader as a vehicle state, altitude offset included (climb angle from both).
 VehicleState LeaderState(const Path& path, double leader_arc_m, const AltitudeOffset& offset);

@@ -45,64 +45,64 @@ class Listener {
     bus::SubscribeChunks<fleet_state_t>(bus, bus::channel::kFleetState,
                                         [this](const fleet_state_t& state, int) {
                                           for (const auto& vehicle : state.vehicles)
-                                            heard[vehicle.id] = vehicle.utime;
+                                            vehicles[vehicle.id].heard_utime = vehicle.utime;
                                         });
     bus::SubscribeChunks<fleet_command_t>(bus, bus::channel::kCmdFleet,
                                           [this](const fleet_command_t& message, int) {
                                             for (const auto& command : message.commands)
-                                              commands[command.id] = command;
+                                              vehicles[command.id].command = command;
                                           });
-    bus::SubscribeChunks<formation_status_t>(
-        bus, bus::channel::kFormationStatus,
-        [this](const formation_status_t& status, int) { formations[status.formation_id] = status; });
+    bus::SubscribeChunks<formation_status_t>(bus, bus::channel::kFormationStatus,
+                                             [this](const formation_status_t& status, int) { Hear(status); });
     bus::SubscribeChunks<link_status_t>(bus, bus::channel::kLinkStatus,
                                         [this](const link_status_t& status, int) {
-                                          for (const auto& link : status.links) links[link.id] = link;
+                                          for (const auto& link : status.links) Hear(link);
                                         });
     bus::SubscribeChunks<proximity_t>(bus, bus::channel::kProximity, [this](const proximity_t& sweep, int) {
-      for (const auto& vehicle : sweep.vehicles) proximity[vehicle.id] = vehicle;
+      for (const auto& vehicle : sweep.vehicles) vehicles[vehicle.id].proximity = vehicle;
     });
     bus.Subscribe<event_t>(bus::channel::kEvent, [this](const event_t& event) { events.push_back(event); });
   }
 
-  /// What belongs to one control step only.
+  /// Forgets what belongs to one control step only.
   void BeginStep() {
-    heard.clear();
-    commands.clear();
+    for (auto& [id, vehicle] : vehicles) {
+      vehicle.heard_utime.reset();
+      vehicle.command.reset();
+      vehicle.slot.reset();
+      vehicle.formation_id = 0;
+    }
     formations.clear();
     events.clear();
   }
 
-  std::unordered_map<int, bus::Utime> heard;
-  std::unordered_map<int, vehicle_command_t> commands;
+  std::unordered_map<int, VehicleTick> vehicles;  ///< but for what is true of them
   std::map<int, formation_status_t> formations;
-  std::unordered_map<int, vehicle_link_t> links;
-  std::unordered_map<int, vehicle_proximity_t> proximity;
   std::vector<event_t> events;
+
+ private:
+  void Hear(const formation_status_t& status) {
+    for (const slot_status_t& slot : status.slots) {
+      VehicleTick& vehicle = vehicles[slot.vehicle_id];
+      vehicle.formation_id = status.formation_id;
+      vehicle.slot = slot;
+    }
+    formations[status.formation_id] = status;
+  }
+
+  void Hear(const vehicle_link_t& link) {
+    // A UAV that was never heard is lost; an uplink that nobody uses is as good as up.
+    vehicles[link.id].downlink = ToLink(link.downlink, Link::kLost);
+    vehicles[link.id].uplink = ToLink(link.uplink, Link::kUp);
+  }
 };
 
-template <typename Value>
-std::optional<Value> Find(const std::unordered_map<int, Value>& map, int id) {
-  const auto found = map.find(id);
-  return found == map.end() ? std::nullopt : std::optional(found->second);
-}
-
-VehicleTick ToTick(const simulator::SimulatedVehicle& vehicle, const Listener& listener) {
-  VehicleTick tick;
+void AddTruth(const simulator::SimulatedVehicle& vehicle, VehicleTick& tick) {
   tick.id = vehicle.id();
   tick.truth = vehicle.state();
   tick.payload_on = vehicle.payload_on();
   tick.uplink_cut = vehicle.uplink().mode != simulator::LinkMode::kUp;
   tick.downlink_cut = vehicle.downlink().mode != simulator::LinkMode::kUp;
-  tick.heard_utime = Find(listener.heard, tick.id);
-  tick.command = Find(listener.commands, tick.id);
-  tick.proximity = Find(listener.proximity, tick.id);
-  if (const auto link = Find(listener.links, tick.id)) {
-    // A UAV that was never heard is lost; an uplink that nobody uses is as good as up.
-    tick.downlink = ToLink(link->downlink, Link::kLost);
-    tick.uplink = ToLink(link->uplink, Link::kUp);
-  }
-  return tick;
 }
 
 }  // namespace
@@ -165,21 +165,11 @@ const Tick& Experiment::Step() {
   impl.executor.RunUntil(tick.utime);
 
   tick.vehicles.clear();
-  std::unordered_map<int, std::size_t> index;
   for (const auto& vehicle : impl.simulator.fleet()) {
-    index[vehicle.id()] = tick.vehicles.size();
-    tick.vehicles.push_back(ToTick(vehicle, impl.listener));
+    AddTruth(vehicle, tick.vehicles.emplace_back(impl.listener.vehicles[vehicle.id()]));
   }
-  tick.formations = impl.listener.formations;
-  for (const auto& [id, formation] : tick.formations) {
-    for (const slot_status_t& slot : formation.slots) {
-      const auto found = index.find(slot.vehicle_id);
-      if (found == index.end()) continue;
-      tick.vehicles[found->second].formation_id = id;
-      tick.vehicles[found->second].slot = slot;
-    }
-  }
-  tick.events = impl.listener.events;
+  tick.formations.swap(impl.listener.formations);
+  tick.events.swap(impl.listener.events);
   if (impl.log) impl.log->Flush();
   return tick;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "core/frames.h"
 
@@ -125,18 +126,19 @@ void SummaryBuilder::WatchLink(const VehicleTick& vehicle, double t_s) {
 void SummaryBuilder::WatchDistances(const Tick& tick) {
   const bool every_pair = tick.vehicles.size() <= kFewVehicles;
   std::size_t pair = 0;
+  std::vector<Eigen::Vector3d> positions;
+  for (const VehicleTick& vehicle : tick.vehicles) positions.push_back(Position(vehicle.truth));
   for (std::size_t i = 0; i < tick.vehicles.size(); ++i) {
     for (std::size_t k = i + 1; k < tick.vehicles.size(); ++k) {
-      const VehicleTick& first = tick.vehicles[i];
-      const VehicleTick& second = tick.vehicles[k];
-      const Eigen::Vector3d apart = Position(second.truth) - Position(first.truth);
+      const Eigen::Vector3d apart = positions[k] - positions[i];
       const std::size_t index = every_pair ? pair++ : 0;
       const bool is_first = index >= summary_.approaches.size();
       if (is_first) summary_.approaches.emplace_back();
       Approach& least = summary_.approaches[index];
       const double distance_m = apart.norm();
       if (!is_first && distance_m >= least.distance_m) continue;
-      least = {first.id, second.id, distance_m, apart.head<2>().norm(), std::abs(apart.z()), tick.t_s};
+      least = {tick.vehicles[i].id,    tick.vehicles[k].id, distance_m,
+               apart.head<2>().norm(), std::abs(apart.z()), tick.t_s};
     }
   }
 }

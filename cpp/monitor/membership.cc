@@ -20,8 +20,11 @@ Membership::Membership(bus::Utime now, const ProximityLimits& strangers,
 
 void Membership::Hear(bus::Utime now, const KnownFormation& formation) {
   Check(formation.limits);
-  formations_[formation.id] = {formation.members, now};
   rules_.formations[formation.id] = formation.limits;
+  Entry& entry = formations_[formation.id];
+  entry.heard = now;
+  if (entry.members == formation.members) return;
+  entry.members = formation.members;
   Index();
 }
 
