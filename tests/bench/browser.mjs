@@ -62,12 +62,14 @@ export async function move(page, until_ms) {
   await page.mouse.move(640, 300);
   for (let i = 0; Date.now() < until_ms; i += 1) {
     await page.mouse.down();
-    // A loop, to one side and then to the other: what the map glides on after it goes up and down in turn.
+    // A loop, to one side and then to the other.
     const way = i % 2 === 0 ? 1 : -1;
     for (let k = 0; k <= 20; k += 1) {
       const turn = (2 * Math.PI * k) / 20;
       await page.mouse.move(640 + 70 * (1 - Math.cos(turn)) * way, 300 + 40 * Math.sin(turn) * way);
     }
+    // At rest before it is let go, else the map would glide on, and away in time.
+    for (let k = 0; k < 4; k += 1) await page.mouse.move(640 + (k % 2), 300);
     await page.mouse.up();
     await page.mouse.wheel(0, i % 4 < 2 ? -60 : 60);
   }

@@ -177,7 +177,7 @@ test("tiles of a server come with its attribution; when it dies, that is told, a
     const problem = screen.page.getByText("none of its tiles has come for this place");
     await problem.waitFor();
     await until(async () => expect(await tiles.count()).toBe(0));
-    const land = await screen.ink(".leaflet-land-pane canvas", "map-land", 2);
+    const land = await screen.ink(".overlay.land", "map-land", 2);
     expect(Math.min(...land)).toBeGreaterThan(1000);
     await screen.page.screenshot({
       path: `${import.meta.dirname}/test-results/map-tile-server-gone.png`,

@@ -193,8 +193,14 @@ test("a tap selects a UAV, a tap beside it none", async () => {
       expect(await screen.text(".selected-count")).toBe("1 selected");
     });
   }
-  // On the side where the other one is not.
-  await tap(1, (await uavAt(1)).x < (await uavAt(2)).x ? -70 : 70);
+  // Where none of the others is.
+  const [at, ...others] = [await uavAt(1), await uavAt(2), await uavAt(3)];
+  const free_px = (beside_px: number) =>
+    Math.min(...others.map((other) => apart({ x: at.x + beside_px, y: at.y }, other)));
+  await tap(
+    1,
+    [-100, -70, 70, 100].reduce((best, beside_px) => (free_px(beside_px) > free_px(best) ? beside_px : best)),
+  );
   await until(async () => expect(await screen.text(".selected-count")).toBe("None selected"));
 });
 

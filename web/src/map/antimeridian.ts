@@ -1,5 +1,5 @@
 /** Natural Earth's outlines are for a globe. On a flat map an outline that crosses the date line must run on, not jump back. */
-import type { Feature, FeatureCollection, GeoJSON, MultiLineString, Position } from "geojson";
+import type { Feature, FeatureCollection, MultiLineString, Position } from "geojson";
 
 const kPole_deg = 90;
 
@@ -23,22 +23,16 @@ export function flatRing(ring: readonly Position[]): Position[] {
   return [...flat, [last[0], pole_deg], [first[0], pole_deg], first];
 }
 
-/** All rings of land made flat. */
-export function flatLand(land: Feature | FeatureCollection): Feature[] {
+/** All rings of land, made flat. */
+export function flatLand(land: Feature | FeatureCollection): Position[][] {
   const features = land.type === "Feature" ? [land] : land.features;
-  return features.map((feature) => {
-    const { geometry } = feature;
-    if (geometry.type === "Polygon") {
-      return { ...feature, geometry: { ...geometry, coordinates: geometry.coordinates.map(flatRing) } };
-    }
-    if (geometry.type === "MultiPolygon") {
-      const coordinates = geometry.coordinates.map((polygon) => polygon.map(flatRing));
-      return { ...feature, geometry: { ...geometry, coordinates } };
-    }
-    return feature;
+  return features.flatMap(({ geometry }) => {
+    if (geometry.type === "Polygon") return geometry.coordinates.map(flatRing);
+    if (geometry.type === "MultiPolygon") return geometry.coordinates.flat().map(flatRing);
+    return [];
   });
 }
 
-export function flatLines(lines: MultiLineString): GeoJSON {
-  return { ...lines, coordinates: lines.coordinates.map(unrolled) };
+export function flatLines(lines: MultiLineString): Position[][] {
+  return lines.coordinates.map(unrolled);
 }

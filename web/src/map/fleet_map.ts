@@ -1,25 +1,22 @@
-/** The map with all its layers: one Leaflet map, two canvases, one frame clock. */
+/** The map with all its layers: one Leaflet map, canvases over and under it, one frame clock. */
 import L from "leaflet";
 import { effect, signal } from "@preact/signals";
 import type { Store } from "../state/store";
 import { altitude_unit, distance_unit, speed_unit, theme } from "../state/settings";
 import { localFrame, type LocalFrame } from "../units/geodesy";
-import { Land } from "./base_map";
 import { BoxSelect } from "./box_select";
 import { Camera } from "./camera";
 import { readColours, type Colours } from "./colours";
-import { FleetLayer } from "./fleet_layer";
 import { localGridStep_m } from "./grid";
 import { base_map, layers, trail_min, trails_of } from "./layers";
-import { GroundLayer } from "./ground_layer";
-import { fleetInterval_ms, groundInterval_ms, LayerClock } from "./layer_clock";
 import type { EnuPoint, MapAccess, MapTool } from "./map_access";
 import { leafletMap } from "./leaflet_map";
 import { MeasureTool } from "./measure_tool";
 import { keepBase } from "./base_layer";
+import { Painter } from "./painter";
 import { Trails } from "./trails";
 import { neighbourOf } from "./neighbour";
-import { pixelsPerMetre, viewOf, type View } from "./view";
+import { pixelsPerMetre, type View } from "./view";
 
 const kWaitForSlots_ms = 1500;
 /** A UAV is hit when its middle is this near; the nearest counts. */
@@ -42,17 +39,13 @@ export class FleetMap implements MapAccess {
   readonly measure: MeasureTool;
   readonly box: BoxSelect;
   private readonly trails = new Trails();
-  private readonly land: Land;
-  private readonly ground: GroundLayer;
-  private readonly fleet: FleetLayer;
+  private readonly painter: Painter;
   private readonly camera: Camera;
   private readonly undo: (() => void)[] = [];
   private colours: Colours = readColours();
   private local: LocalFrame | null = null;
   private tool: MapTool | null = null;
   private start_utime = 0;
-  private readonly ground_clock = new LayerClock();
-  private readonly fleet_clock = new LayerClock();
   /** The map is to be fitted; done when the fleet and its slots are known, or the fleet alone for a while. */
   private to_fit = true;
   private fleet_seen_ms = Infinity;
@@ -64,21 +57,19 @@ export class FleetMap implements MapAccess {
     readonly freeArea: () => DOMRect,
   ) {
     this.leaflet = leafletMap(container);
-    this.land = new Land(this.leaflet);
-    this.ground = new GroundLayer(this.leaflet, store, this.trails);
-    this.fleet = new FleetLayer(this.leaflet, store, this.trails);
+    this.painter = new Painter(this.leaflet, store, this.trails, (view) => {
+      this.measureScale(view);
+    });
     this.camera = new Camera(this.leaflet, store, freeArea);
     this.measure = new MeasureTool(this, () => this.middle());
     this.box = new BoxSelect(
       this,
       () => this.tool !== null,
       (a, b) => {
-        store.select([...store.selection.peek(), ...this.fleet.within(a, b)]);
+        store.select([...store.selection.peek(), ...this.painter.fleet.within(a, b)]);
       },
     );
     this.listen(container);
-    // A map without land is still a map: grid, fleet and tiles don't need it.
-    this.land.load().catch(() => undefined);
     this.animate(performance.now());
   }
 
@@ -87,8 +78,7 @@ export class FleetMap implements MapAccess {
     for (const step of this.undo) step();
     this.measure.remove();
     this.box.remove();
-    this.ground.remove();
-    this.fleet.remove();
+    this.painter.remove();
     this.leaflet.remove();
   }
 
@@ -101,7 +91,7 @@ export class FleetMap implements MapAccess {
     this.to_fit = true;
     // Not only with the next frame: whatever is done next is meant for the fitted map.
     if (this.local !== null) this.fitNow(this.local, performance.now());
-    this.drawAtOnce();
+    this.painter.demand();
   }
 
   centre(place: L.LatLng): void {
@@ -162,7 +152,7 @@ export class FleetMap implements MapAccess {
   }
 
   keepsLongPress(at: L.Point): boolean {
-    return this.tool !== null || this.fleet.pick(at, kFinger_px) !== null;
+    return this.tool !== null || this.painter.fleet.pick(at, kFinger_px) !== null;
   }
 
   claim(tool: MapTool): () => void {
@@ -182,17 +172,13 @@ export class FleetMap implements MapAccess {
   }
 
   private listen(container: HTMLElement): void {
-    const redraw = () => {
-      this.ground_clock.old = this.fleet_clock.old = true;
-    };
-    this.leaflet.on("move zoom resize", redraw);
     this.leaflet.on("dragstart", () => {
       this.stayHere();
     });
     this.leaflet.on("click", (event) => {
       if (this.tool !== null) return;
       const touched = (event.originalEvent as Partial<PointerEvent>).pointerType === "touch";
-      const id = this.fleet.pick(event.containerPoint, touched ? kFinger_px : kMouse_px);
+      const id = this.painter.fleet.pick(event.containerPoint, touched ? kFinger_px : kMouse_px);
       const { ctrlKey, metaKey, shiftKey } = event.originalEvent;
       if (id !== null && (ctrlKey || metaKey || shiftKey)) this.store.toggleSelected(id);
       else this.store.select(id === null ? [] : [id]);
@@ -201,7 +187,7 @@ export class FleetMap implements MapAccess {
     this.leaflet.on("contextmenu", (event) => {
       if (this.tool !== null) return;
       event.originalEvent.preventDefault();
-      const id = this.fleet.pick(event.containerPoint, kFinger_px);
+      const id = this.painter.fleet.pick(event.containerPoint, kFinger_px);
       if (id !== null) this.store.toggleSelected(id);
     });
     const resized = new ResizeObserver(() => this.leaflet.invalidateSize({ animate: false }));
@@ -215,8 +201,7 @@ export class FleetMap implements MapAccess {
       }),
       theme.subscribe(() => {
         this.colours = readColours();
-        this.land.paint(this.colours);
-        this.drawAtOnce();
+        this.painter.demand();
       }),
       keepBase(this.leaflet, this.store.hello, base_map, theme, this.base_problem),
       effect(() => {
@@ -224,7 +209,7 @@ export class FleetMap implements MapAccess {
         for (const { shown } of Object.values(layers)) void shown.value;
         void [trails_of.value, trail_min.value, this.store.selection.value];
         void [altitude_unit.value, distance_unit.value, speed_unit.value];
-        redraw();
+        this.painter.redraw();
       }),
     );
   }
@@ -252,34 +237,8 @@ export class FleetMap implements MapAccess {
       if (this.to_fit) this.fitNow(this.local, now_ms);
       else if (this.following.peek()) this.camera.follow(this.local, now_ms);
     }
-    const view = viewOf(this.leaflet);
-    this.ground_clock.tick(now_ms);
-    this.fleet_clock.tick(now_ms);
-    // One of both in a frame, so that neither makes a frame long.
-    const ground_due = this.ground_clock.isDue(now_ms, groundInterval_ms(this.ground_clock));
-    const speed_px_s = this.fleet.fastest_m_s * pixelsPerMetre(view, this.local?.origin.latitude_deg ?? 0);
-    const fleet_due =
-      !ground_due && this.fleet_clock.isDue(now_ms, fleetInterval_ms(this.fleet_clock, speed_px_s));
-    if (ground_due) {
-      this.ground_clock.drawn(now_ms);
-      this.ground.draw(view, this.local, this.colours);
-      this.measureScale(view);
-    } else {
-      this.ground.align(view);
-    }
-    if (fleet_due) {
-      this.fleet_clock.drawn(now_ms);
-      this.fleet.draw(view, this.local, this.colours, now_ms);
-    } else {
-      this.fleet.align(view);
-    }
+    this.painter.paint(this.local, this.colours, now_ms);
   };
-
-  private drawAtOnce(): void {
-    this.ground_clock.demand();
-    this.fleet_clock.demand();
-    this.fleet.placeLabelsAnew();
-  }
 
   private fitNow(frame: LocalFrame, now_ms: number): void {
     if (!this.camera.fit(frame, now_ms)) return;
