@@ -193,7 +193,8 @@ test("a tap selects a UAV, a tap beside it none", async () => {
       expect(await screen.text(".selected-count")).toBe("1 selected");
     });
   }
-  // Where none of the others is.
+  // Where none of the others is; and they have flown on, out of the map's free part in time.
+  await fit();
   const [at, ...others] = [await uavAt(1), await uavAt(2), await uavAt(3)];
   const free_px = (beside_px: number) =>
     Math.min(...others.map((other) => apart({ x: at.x + beside_px, y: at.y }, other)));
