@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -19,14 +20,31 @@ namespace skein::bus {
 /// Encoded items in one chunk are at most this long [B]: most of it fits into the kernel's default buffer
 /// (tests/bench/README.md).
 inline constexpr int kChunkBytes = 7000;
+/// A set of items that is larger than so many of those has larger chunks instead: lcm-logger 1.3.1 lets 30
+/// messages wait, then drops, and a set this large needs larger buffers anyway.
+inline constexpr int kMostUsualChunks = 12;
+/// A datagram holds 65,507 B.
+inline constexpr int kLargestChunkBytes = 60'000;
 /// So much goes out at once, four full chunks; a quarter of what the kernel's default buffer holds.
 inline constexpr int kBurstBytes = 29'000;
+/// And so many messages: a third of what lcm-logger lets wait.
+inline constexpr int kBurstMessages = 10;
 
-/// Splits a message into chunks of at most kChunkBytes of items; at least one chunk, even when there is
-/// nothing in it.
+/// How large the chunks of a set are [B].
 template <typename Message>
-std::vector<Message> Split(const Message& whole, int chunk_bytes = kChunkBytes) {
+int ChunkBytesFor(const Message& whole) {
+  std::int64_t bytes = 0;
+  for (const auto& item : ChunkTraits<Message>::Items(whole)) bytes += item._getEncodedSizeNoHash();
+  return static_cast<int>(
+      std::clamp<std::int64_t>(bytes / kMostUsualChunks, kChunkBytes, kLargestChunkBytes));
+}
+
+/// Splits a message into chunks of at most chunk_bytes of items (0: as ChunkBytesFor says); at least one
+/// chunk, even when there is nothing in it.
+template <typename Message>
+std::vector<Message> Split(const Message& whole, int chunk_bytes = 0) {
   using Traits = ChunkTraits<Message>;
+  if (chunk_bytes == 0) chunk_bytes = ChunkBytesFor(whole);
   Message empty = whole;
   Traits::Items(empty).clear();
   std::vector<Message> chunks{empty};
@@ -48,8 +66,8 @@ std::vector<Message> Split(const Message& whole, int chunk_bytes = kChunkBytes) 
   return chunks;
 }
 
-/// Publishes messages that follow one another, with a pause after each kBurstBytes, because loss comes from
-/// bursts.
+/// Publishes messages that follow one another, with a pause after each kBurstBytes or kBurstMessages, because
+/// loss comes from bursts.
 class Burst {
  public:
   explicit Burst(Bus& bus) : bus_(bus) {}
@@ -57,28 +75,28 @@ class Burst {
   template <typename Message>
   void Publish(const std::string& channel, const Message& message) {
     const int size = message.getEncodedSize();
-    if (bytes_ > 0 && bytes_ + size > kBurstBytes) {
+    if (bytes_ > 0 && (bytes_ + size > kBurstBytes || messages_ == kBurstMessages)) {
       bus_.executor().PauseBurst();
-      bytes_ = 0;
+      bytes_ = messages_ = 0;
     }
     bus_.Publish(channel, message);
     bytes_ += size;
+    ++messages_;
   }
 
  private:
   Bus& bus_;
   int bytes_ = 0;
+  int messages_ = 0;
 };
 
 /// Publishes a message in chunks; chunk, chunk_count and the item count are filled in.
 template <typename Message>
-void PublishChunks(Burst& burst, const std::string& channel, const Message& whole,
-                   int chunk_bytes = kChunkBytes) {
+void PublishChunks(Burst& burst, const std::string& channel, const Message& whole, int chunk_bytes = 0) {
   for (const Message& chunk : Split(whole, chunk_bytes)) burst.Publish(channel, chunk);
 }
 template <typename Message>
-void PublishChunks(Bus& bus, const std::string& channel, const Message& whole,
-                   int chunk_bytes = kChunkBytes) {
+void PublishChunks(Bus& bus, const std::string& channel, const Message& whole, int chunk_bytes = 0) {
   Burst burst(bus);
   PublishChunks(burst, channel, whole, chunk_bytes);
 }
@@ -112,9 +130,11 @@ class ChunkAssembler {
     std::map<int, Message> chunks;  ///< of the current set
     std::size_t items = 0;          ///< in them
     int chunk_count = 0;
+    int joined_at = 0;  ///< chunk of the very first set with which we came to it: those before are not lost
     bool delivered = true;
   };
 
+  /// @return how many chunks of it are lost.
   int Deliver(Stream& stream);
 
   // More streams than this are noise.
@@ -129,7 +149,8 @@ class ChunkAssembler {
 template <typename Message>
 typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Message& message) {
   if (streams_.size() >= kMostStreams && !streams_.contains(Traits::Stream(message))) return {};
-  Stream& stream = streams_[Traits::Stream(message)];
+  const auto [entry, is_new] = streams_.try_emplace(Traits::Stream(message));
+  Stream& stream = entry->second;
   const std::int64_t last_set = stream.order.current().set;
   const auto verdict = stream.order.Judge({Traits::Session(message), message.utime, Traits::Set(message)});
   if (verdict == SetOrder::Verdict::kOld) return {};
@@ -144,6 +165,7 @@ typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Messa
     stream.chunks.clear();
     stream.items = 0;
     stream.chunk_count = message.chunk_count;
+    stream.joined_at = is_new ? message.chunk : 0;
     stream.delivered = false;
   }
   if (stream.delivered || message.chunk_count != stream.chunk_count) return found;
@@ -166,6 +188,8 @@ typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Messa
 template <typename Message>
 int ChunkAssembler<Message>::Deliver(Stream& stream) {
   const int missing = stream.chunk_count - static_cast<int>(stream.chunks.size());
+  const auto before = std::distance(stream.chunks.begin(), stream.chunks.lower_bound(stream.joined_at));
+  const int lost = missing - (stream.joined_at - static_cast<int>(before));
   Message whole = stream.chunks.begin()->second;
   auto& items = Traits::Items(whole);
   for (auto chunk = std::next(stream.chunks.begin()); chunk != stream.chunks.end(); ++chunk) {
@@ -178,7 +202,7 @@ int ChunkAssembler<Message>::Deliver(Stream& stream) {
   stream.chunks.clear();
   stream.delivered = true;
   handler_(whole, missing);
-  return missing;
+  return lost;
 }
 
 /// Subscribes to a channel whose messages come in chunks. Gaps go to the Bus' statistics; a source whose time

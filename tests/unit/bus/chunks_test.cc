@@ -84,6 +84,15 @@ TEST(Split, MakesOneChunkOfNothing) {
   EXPECT_EQ(chunks[0].chunk_count, 1);
 }
 
+TEST(Split, MakesLargerChunksOfALargeSetRatherThanMany) {
+  EXPECT_EQ(Split(State(0, 1'000)).size(), 12U);
+  const auto chunks = Split(State(0, 5'000));
+  EXPECT_LE(chunks.size(), 13U);
+  const auto largest = Split(State(0, 20'000));
+  EXPECT_GT(largest.size(), 13U);
+  for (const auto& chunk : largest) EXPECT_LT(chunk.getEncodedSize(), 65'000) << "fits into a datagram";
+}
+
 TEST(Split, GivesAnItemThatIsTooLongAChunkOfItsOwn) { EXPECT_EQ(Split(State(0, 3), 10).size(), 3U); }
 
 TEST_F(ChunkAssemblerTest, DeliversASetWhenItsLastChunkHasCome) {
@@ -109,6 +118,20 @@ TEST_F(ChunkAssemblerTest, DeliversWhatIsThereWhenTheNextSetBegins) {
   AddAll(State(1, 5));
   EXPECT_EQ(delivered_, (std::vector<Delivery>{{0, 3, 1}, {1, 5, 0}}));
   EXPECT_EQ(gaps_, 1);
+}
+
+TEST_F(ChunkAssemblerTest, CountsNothingAsLostThatWasSentBeforeItCame) {
+  const auto chunks = Chunks(State(4, 9));
+  ASSERT_EQ(chunks.size(), 5U);
+  Add(chunks[2]);
+  Add(chunks[4]);
+  Add(chunks[1]);  // late, on its way
+  AddAll(State(5, 9));
+  EXPECT_EQ(delivered_, (std::vector<Delivery>{{4, 5, 2}, {5, 9, 0}}));
+  EXPECT_EQ(gaps_, 1) << "chunk 3 is lost; chunk 0 was sent before";
+  Add(Chunks(State(6, 9))[2]);
+  AddAll(State(7, 9));
+  EXPECT_EQ(gaps_, 1 + 4) << "later sets count as a whole";
 }
 
 TEST_F(ChunkAssemblerTest, CountsTheChunksOfSetsThatNeverCame) {
