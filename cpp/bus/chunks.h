@@ -27,8 +27,8 @@ inline constexpr int kMostUsualChunks = 12;
 inline constexpr int kLargestChunkBytes = 60'000;
 /// So much goes out at once, four full chunks; a quarter of what the kernel's default buffer holds.
 inline constexpr int kBurstBytes = 29'000;
-/// And so many messages: a third of what lcm-logger lets wait.
-inline constexpr int kBurstMessages = 10;
+/// And so many messages: a sixth of what lcm-logger lets wait.
+inline constexpr int kBurstMessages = 5;
 
 /// How large the chunks of a set are [B].
 template <typename Message>
