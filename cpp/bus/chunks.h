@@ -23,6 +23,9 @@ inline constexpr int kChunkBytes = 7000;
 /// A set of items that is larger than so many of those has larger chunks instead: lcm-logger 1.3.1 lets 30
 /// messages wait, then drops, and a set this large needs larger buffers anyway.
 inline constexpr int kMostUsualChunks = 12;
+/// These are not smaller than so: of datagrams between 8,000 and 16,000 B the kernel's buffer holds half as
+/// many bytes (tests/bench/README.md).
+inline constexpr int kLeastLargeChunkBytes = 16'000;
 /// A datagram holds 65,507 B.
 inline constexpr int kLargestChunkBytes = 60'000;
 /// So much goes out at once, four full chunks; a quarter of what the kernel's default buffer holds.
@@ -35,8 +38,9 @@ template <typename Message>
 int ChunkBytesFor(const Message& whole) {
   std::int64_t bytes = 0;
   for (const auto& item : ChunkTraits<Message>::Items(whole)) bytes += item._getEncodedSizeNoHash();
+  if (bytes <= kMostUsualChunks * kChunkBytes) return kChunkBytes;
   return static_cast<int>(
-      std::clamp<std::int64_t>(bytes / kMostUsualChunks, kChunkBytes, kLargestChunkBytes));
+      std::clamp<std::int64_t>(bytes / kMostUsualChunks, kLeastLargeChunkBytes, kLargestChunkBytes));
 }
 
 /// Splits a message into chunks of at most chunk_bytes of items (0: as ChunkBytesFor says); at least one

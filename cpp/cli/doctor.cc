@@ -69,7 +69,8 @@ bool HasRuleFor(int port) {
   // nft lists a single port as such, several in braces.
   const std::string look = fmt::format(
       "nft list chain inet skein input 2>/dev/null |"
-      " grep -Eq '^[[:space:]]*udp dport ({0}|[{{]([^}}]*[ ,])?{0}[ ,][^}}]*[}}]) .*drop$'",
+      " grep -Eq '^[[:space:]]*udp dport ({0}|[{{]([^}}]*[ ,])?{0}[ ,][^}}]*[}}])( counter packets [0-9]+ "
+      "bytes [0-9]+)? drop$'",
       port);
   return std::system(look.c_str()) == 0;
 }

@@ -73,6 +73,7 @@ class DropRun {
     Drop drop;
     bus::Utime start = 0;
     bus::Utime end = 0;
+    std::vector<int> ids{};  ///< of a hook's drop; none: nobody's link
   };
 
   bus::Utime Now() const { return station_.bus().executor().Now(); }
@@ -106,7 +107,7 @@ class DropRun {
         fmt::format("{} {}{} for {:g} s", ids.empty() ? drop.vehicle : Callsigns(station_.picture(), ids),
                     Words(drop), options_.random ? fmt::format(" (drop {})", number) : "", drop.for_s));
     if (HasHook()) {
-      active_.push_back({number, drop, start, end});
+      active_.push_back({number, drop, start, end, ids});
       CallHook(options_.hook, "begin", number, drop);
       return;
     }
@@ -137,7 +138,7 @@ class DropRun {
       if (HasHook()) CallHook(options_.hook, "end", active.number, active.drop);
       active_.erase(active_.begin() + static_cast<std::ptrdiff_t>(i));
       if (HasHook()) {
-        BeginAgainBeside(active.drop);
+        BeginAgainBeside(active, until);
         continue;
       }
       const int id = std::stoi(active.drop.vehicle);
@@ -151,10 +152,11 @@ class DropRun {
   }
 
   /// The end of one drop lifted those that share its wire, too: a hook knows of one at a time.
-  void BeginAgainBeside(const Drop& ended) {
-    for (const auto& [number, drop, start, end] : active_) {
-      const bool shares = drop.vehicle == ended.vehicle || drop.vehicle == "all" || ended.vehicle == "all";
-      if (shares) CallHook(options_.hook, "begin", number, drop);
+  void BeginAgainBeside(const Active& ended, bus::Utime until) {
+    for (const Active& active : active_) {
+      const bool shares = std::ranges::find_first_of(active.ids, ended.ids) != active.ids.end() ||
+                          (active.ids.empty() && ended.ids.empty());
+      if (shares && active.end > until) CallHook(options_.hook, "begin", active.number, active.drop);
     }
   }
 

@@ -183,15 +183,21 @@ void FormationControllerNode::SendCommands(const std::vector<FlightCommand>& com
 }
 
 void FormationControllerNode::SendFormation(const FormationFlight& flight) {
-  bus_.Publish(bus::channel::kFormation, FormationMessage(flight, bus_.executor().Now()));
-  bus_.Publish(bus::channel::kPath, PathMessage(flight, bus_.executor().Now()));
+  bus::Burst burst(bus_);
+  SendFormation(flight, burst);
+}
+
+void FormationControllerNode::SendFormation(const FormationFlight& flight, bus::Burst& burst) {
+  burst.Publish(bus::channel::kFormation, FormationMessage(flight, bus_.executor().Now()));
+  burst.Publish(bus::channel::kPath, PathMessage(flight, bus_.executor().Now()));
 }
 
 void FormationControllerNode::RepeatFormations() {
   // For those who join late. Each has its part of the second: all at once would fill receive buffers.
   std::size_t index = 0;
+  bus::Burst burst(bus_);
   for (const auto& [id, flight] : flights_) {
-    if (index++ % kRepeatParts == repeat_part_) SendFormation(flight);
+    if (index++ % kRepeatParts == repeat_part_) SendFormation(flight, burst);
   }
   repeat_part_ = (repeat_part_ + 1) % kRepeatParts;
 }

@@ -82,6 +82,7 @@ class FormationControllerNode {
   // What goes out (controller_node.cc).
   void SendCommands(const std::vector<FlightCommand>& commands, bus::Burst& burst);
   void SendFormation(const FormationFlight& flight);
+  void SendFormation(const FormationFlight& flight, bus::Burst& burst);
   void RepeatFormations();
   void SendStatuses(bus::Burst& burst);
   void Tell(const FormationFlight& flight, const FlightEvent& event);

@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::int64_t kTicksPerRoster = bus::kSecond / FleetSimulatorNode::kPeriod;
 
-/// The roster of a large fleet is spread over some ticks: together with the state it would overrun receivers'
-/// buffers.
-constexpr int kRosterChunksPerTick = 2;
-
 /// A link longer than this would hold back more messages than anybody wants.
 constexpr double kLongestDelay_s = 60;
 
@@ -177,8 +173,9 @@ void FleetSimulatorNode::Tick() {
   if (due <= tick()) return;
   // A process that was held up makes up for the flight, not for the reports that nobody can use any more.
   while (tick() < due) Fly(tick() + 1);
-  PublishRoster();
-  PublishState();
+  bus::Burst burst(bus_);
+  PublishRoster(burst);
+  PublishState(burst);
 }
 
 void FleetSimulatorNode::Fly(std::int64_t tick) {
@@ -202,19 +199,20 @@ void FleetSimulatorNode::Fly(std::int64_t tick) {
   flight_->links.RunUntil(utime);
 }
 
-void FleetSimulatorNode::PublishRoster() {
+void FleetSimulatorNode::PublishRoster(bus::Burst& burst) {
   Flight& flight = *flight_;
   if (flight.roster_sent == flight.roster.size() && tick() >= flight.roster_due) {
     flight.roster_sent = 0;
     flight.roster_due = tick() + kTicksPerRoster;
     for (fleet_roster_t& chunk : flight.roster) chunk.utime = start_utime() + tick() * kPeriod;
   }
-  for (int i = 0; i < kRosterChunksPerTick && flight.roster_sent < flight.roster.size(); ++i) {
-    bus_.Publish(bus::channel::kFleetRoster, flight.roster[flight.roster_sent++]);
+  // One in a tick: together with the state all would overrun receivers' buffers.
+  if (flight.roster_sent < flight.roster.size()) {
+    burst.Publish(bus::channel::kFleetRoster, flight.roster[flight.roster_sent++]);
   }
 }
 
-void FleetSimulatorNode::PublishState() {
+void FleetSimulatorNode::PublishState(bus::Burst& burst) {
   fleet_state_t state{};
   state.utime = start_utime() + tick() * kPeriod;
   state.session_id = start_utime();
@@ -224,7 +222,7 @@ void FleetSimulatorNode::PublishState() {
     if (const auto heard = vehicle.Telemetry()) state.vehicles.push_back(*heard);
   }
   state.num_vehicles = static_cast<int>(state.vehicles.size());
-  bus::PublishChunks(bus_, bus::channel::kFleetState, state);
+  bus::PublishChunks(burst, bus::channel::kFleetState, state);
 }
 
 void FleetSimulatorNode::Command(const fleet_command_t& command) {

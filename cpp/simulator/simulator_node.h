@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bus/bus.h"
+#include "bus/chunks.h"
 #include "bus/command_inbox.h"
 #include "bus/events.h"
 #include "bus/state_file.h"
@@ -77,8 +78,8 @@ class FleetSimulatorNode {
   void SaveNow();
   void Tick();
   void Fly(std::int64_t tick);
-  void PublishRoster();
-  void PublishState();
+  void PublishRoster(bus::Burst& burst);
+  void PublishState(bus::Burst& burst);
   void Command(const fleet_command_t& command);
   bus::Answer SetLink(const link_command_t& command);
   bus::Answer SwitchPayload(const payload_command_t& command);

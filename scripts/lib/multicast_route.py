@@ -7,9 +7,12 @@ Holds it for a shell script: adds it if it is missing, says "ready" on standard 
 standard input ends, also when whoever started it was killed. What it does it tells on standard error.
 """
 
+import contextlib
+import fcntl
 import os
 import pathlib
 import re
+import secrets
 import signal
 import socket
 import subprocess
@@ -40,7 +43,11 @@ class Route:
         """Adds the route if it is missing. Raises RouteFailed."""
         if not self.wanted:
             return
-        self.holder.bind(f"\0{HOLDER}{os.getpid()}")
+        with _alone():
+            self._hold()
+
+    def _hold(self):
+        self.holder.bind(f"\0{HOLDER}{secrets.token_hex(8)}")
         if _ip("route", "get", GROUP).returncode == 0:
             return
         if subprocess.run(_as_root("ip", "route", "add", *ROUTE, *PROTOCOL), capture_output=True).returncode != 0:
@@ -53,13 +60,26 @@ class Route:
 
     def release(self):
         """Takes back a route that Skein has added, unless another flight needs it."""
+        with _alone():
+            self._release()
+
+    def _release(self):
         self.holder.close()
         if not self.wanted or not _ip("route", "show", *ROUTE, *PROTOCOL).stdout:
             return
-        if f"@{HOLDER}" in pathlib.Path("/proc/net/unix").read_text():
+        # Names of others may be any bytes.
+        if f"@{HOLDER}".encode() in pathlib.Path("/proc/net/unix").read_bytes():
             self.say(f"Route {GROUP}/32 on lo stays: another flight needs it")
         elif subprocess.run(_as_root("ip", "route", "del", *ROUTE, *PROTOCOL), capture_output=True).returncode == 0:
             self.say(f"Route {GROUP}/32 on lo taken back")
+
+
+@contextlib.contextmanager
+def _alone():
+    """One flight after the other: between looking and doing nobody else adds the route or takes it back."""
+    with open(__file__, "rb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
 
 
 def _ip(*arguments):

@@ -241,9 +241,13 @@ TEST_F(DropsTest, LetsAHookBeginAtOnce) {
 
 TEST_F(DropsTest, LetsAHookBeginAgainWhatTheEndOfAnotherDropLifted) {
   StartFleet(2);
-  const std::string list = Write("list.csv", "at_s,uav,for_s\n0,none,9\n1,2,4\n2,none,2\n");
+  const std::string list =
+      Write("list.csv", "at_s,uav,for_s\n0,none,4\n0,UAV2,4.5\n1,2,2\n1,none,2\n2,1,2.5\n");
   EXPECT_EQ(Drops({"--list", list, "--from-now", "--hook", Hook("")}), "");
-  EXPECT_EQ(ReadCalls(), "begin 1\nbegin 2\nbegin 3\nend 3\nbegin 1\nend 2\nend 1\n");
+  // Whatever the UAV is called by; nobody's link is no UAV's, and UAV 1's no other one's.
+  EXPECT_EQ(ReadCalls(),
+            "begin 1\nbegin 2\nbegin 3\nbegin 4\nbegin 5\n"
+            "end 3\nbegin 2\nend 4\nbegin 1\nend 1\nend 2\nend 5\n");
 }
 
 TEST_F(DropsTest, EndsEveryDropOfAHookThatFailsAndSaysWhyItStopped) {

@@ -10,6 +10,9 @@ import { fleetInterval_ms, groundInterval_ms, LayerClock } from "./layer_clock";
 import type { Trails } from "./trails";
 import { pixelsPerMetre, viewOf, type View } from "./view";
 
+/** Without a reason the land is drawn again as seldom as this: should the browser have lost the canvas, or the screen be another one. */
+const kLandInterval_ms = 3000;
+
 export class Painter {
   readonly fleet: FleetLayer;
   private readonly land: Land;
@@ -63,7 +66,10 @@ export class Painter {
     const view = viewOf(this.map);
     const { land_clock, ground_clock, fleet_clock } = this;
     for (const clock of [land_clock, ground_clock, fleet_clock]) clock.tick(now_ms);
-    const land_due = land_clock.old && land_clock.isDue(now_ms, groundInterval_ms(land_clock));
+    const land_due = land_clock.isDue(
+      now_ms,
+      land_clock.old ? groundInterval_ms(land_clock) : kLandInterval_ms,
+    );
     const ground_due = !land_due && ground_clock.isDue(now_ms, groundInterval_ms(ground_clock));
     const speed_px_s = this.fleet.fastest_m_s * pixelsPerMetre(view, frame?.origin.latitude_deg ?? 0);
     const fleet_due =
