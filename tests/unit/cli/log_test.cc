@@ -76,7 +76,8 @@ TEST_F(LogTest, CountsWhatDoesNotDecode) {
   const std::string bad =
       EventBytes(1, 1, "FLEET_STATE", bytes.substr(at, 20)) + EventBytes(2, 1, "FLEET_STATE", "x");
   const std::string file = Write("undecodable.lcm", bytes + bad);
-  for (const auto& channel : Json({"info", file, "--json"})["channels"]) {
+  const auto info = Json({"info", file, "--json"});
+  for (const auto& channel : info["channels"]) {
     EXPECT_EQ(channel["undecodable"], channel["name"] == "FLEET_STATE" ? 2 : 0) << channel;
   }
   EXPECT_EQ(Lines(Output({"csv", file, "--channel", "FLEET_STATE"})).size(),
