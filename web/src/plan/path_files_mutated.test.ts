@@ -1,6 +1,7 @@
 /** Path files that somebody has damaged: each is read, into waypoints that make sense, or refused in words. */
 import { DOMParser } from "@xmldom/xmldom";
 import { expect, test } from "vitest";
+import { randomFrom } from "../state/random_for_tests";
 import { localFrame } from "../units/geodesy";
 import { PathFileError } from "./path_file";
 import { readPathFile, writePathFile } from "./path_files";
@@ -34,17 +35,6 @@ const kValues = [
   '""',
   "-0.0",
 ];
-
-/** mulberry32 */
-function randomFrom(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), 1 | state);
-    mixed = (mixed + Math.imul(mixed ^ (mixed >>> 7), 61 | mixed)) ^ mixed;
-    return ((mixed ^ (mixed >>> 14)) >>> 0) / 4294967296;
-  };
-}
 
 function mutated(text: string, random: () => number): string {
   const place = () => Math.floor(random() * text.length);
