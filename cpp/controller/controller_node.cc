@@ -10,6 +10,11 @@
 
 namespace skein::controller {
 
+int StatusEveryTicks(std::size_t formations) {
+  constexpr std::size_t kMostATick = 5;
+  return static_cast<int>(std::clamp<std::size_t>((formations + kMostATick - 1) / kMostATick, 4, 20));
+}
+
 FormationControllerNode::FormationControllerNode(bus::Bus& bus, const ControllerOptions& options)
     : bus_(bus),
       options_(options),
@@ -204,9 +209,11 @@ void FormationControllerNode::RepeatFormations() {
 
 void FormationControllerNode::SendStatuses(bus::Burst& burst) {
   // Each formation has its tick, too.
+  const int every =
+      options_.status_every_ticks > 0 ? options_.status_every_ticks : StatusEveryTicks(flights_.size());
   std::int64_t index = 0;
   for (const auto& [id, flight] : flights_) {
-    if ((ticks_heard_ - index++) % options_.status_every_ticks != 0) continue;
+    if ((ticks_heard_ - index++) % every != 0) continue;
     bus::PublishChunks(burst, bus::channel::kFormationStatus, flight.Status(tick_));
   }
 }

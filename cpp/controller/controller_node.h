@@ -31,14 +31,20 @@ struct ControllerOptions {
   /// The scenario of a fleet that has started anew, by the name in its roster; none: not found. Empty:
   /// `scenario` is for every flight.
   std::function<std::optional<config::Scenario>(const std::string& name)> find_scenario{};
-  /// FORMATION_STATUS goes out each so many ticks of FLEET_STATE, >= 1.
-  int status_every_ticks = 4;
+  /// FORMATION_STATUS of each formation goes out every so many ticks of FLEET_STATE; 0: as StatusEveryTicks
+  /// says.
+  int status_every_ticks = 0;
   /// Where the state of all formations is kept, so that a controller that died picks up where it was; empty:
   /// nowhere.
   std::filesystem::path state_file;
   /// Formations in flight to go on with, instead of those of the state file and of the scenario.
   std::optional<ControllerState> state;
 };
+
+/// Every how many ticks the status of each of so many formations goes out: 4 (5 Hz) up to 20 formations, for
+/// more of them less often, for 100 and more 20 (1 Hz). All at 5 Hz would be half of the messages on the bus,
+/// and lcm-logger lets 30 wait.
+int StatusEveryTicks(std::size_t formations);
 
 /// formation-controller: wakes on each complete tick of FLEET_STATE and answers with CMD_FLEET.
 class FormationControllerNode {

@@ -17,7 +17,7 @@ namespace channel = bus::channel;
 /// than the time from one to the next. In fast motion nobody could see the rest.
 bus::Utime LastsFor(std::string_view name) {
   static const std::map<std::string_view, bus::Utime> kLasts = {
-      {channel::kFleetState, bus::kSecond / 10},   {channel::kFormationStatus, bus::kSecond * 2 / 5},
+      {channel::kFleetState, bus::kSecond / 10},   {channel::kFormationStatus, bus::kSecond * 5 / 4},
       {channel::kProximity, bus::kSecond * 5 / 4}, {channel::kLinkStatus, bus::kSecond * 5 / 4},
       {channel::kHeartbeat, bus::kSecond * 5 / 4},
   };

@@ -7,9 +7,8 @@
 namespace skein::recording {
 
 bus::Utime LongestPause(std::string_view channel) {
-  if (channel == bus::channel::kFleetState) return bus::kSecond / 2;           // 20 Hz
-  if (channel == bus::channel::kFormationStatus) return bus::kSecond * 3 / 4;  // 5 Hz
-  return bus::kSecond * 5 / 2;                                                 // 1 Hz
+  if (channel == bus::channel::kFleetState) return bus::kSecond / 2;  // 20 Hz
+  return bus::kSecond * 5 / 2;                                        // 1 Hz
 }
 
 HeldMessages::Stream& HeldMessages::Find(const std::string& name) {

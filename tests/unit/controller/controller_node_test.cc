@@ -175,6 +175,14 @@ TEST_F(ControllerNodeTest, RepeatsFormationPathAndStatusForThoseWhoJoinLate) {
   EXPECT_EQ(status_.mode, formation_status_t::MODE_IN_FORMATION);
 }
 
+TEST(FormationStatuses, ComeLessOftenTheMoreFormationsThereAreButEachSecond) {
+  EXPECT_EQ(StatusEveryTicks(0), 4);
+  EXPECT_EQ(StatusEveryTicks(20), 4);
+  EXPECT_EQ(StatusEveryTicks(21), 5);
+  EXPECT_EQ(StatusEveryTicks(100), 20);
+  EXPECT_EQ(StatusEveryTicks(500), 20);
+}
+
 TEST_F(ControllerNodeTest, HoldsResumesAndRemovesAFormation) {
   Start();
   SendRoster();

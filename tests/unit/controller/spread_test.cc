@@ -103,9 +103,9 @@ TEST(ControllerOfManyFormations, SpreadsWhatItSendsOverItsPeriod) {
   EXPECT_EQ(Sum(formations), kFormations) << "each once a second";
   EXPECT_EQ(formations_of.size(), static_cast<std::size_t>(kFormations));
   EXPECT_LE(Most(formations), kFormations / 20);
-  EXPECT_EQ(Sum(statuses), kFormations * kTicks / 4) << "each five times a second";
+  EXPECT_EQ(Sum(statuses), kFormations * kTicks / 8) << "five a tick, each every eight ticks";
   EXPECT_EQ(statuses_of.size(), static_cast<std::size_t>(kFormations));
-  EXPECT_LE(Most(statuses), kFormations / 4);
+  EXPECT_LE(Most(statuses), 5);
 }
 
 }  // namespace
