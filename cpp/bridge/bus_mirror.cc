@@ -66,9 +66,12 @@ BusMirror::BusMirror(bus::Bus& bus, HelloInfo hello, Sink sink)
   bus.Subscribe<event_t>(channel::kEvent, [this](const auto& event) { Hear(event); });
   bus.Subscribe<heartbeat_t>(channel::kHeartbeat, [this](const auto& heartbeat) { Hear(heartbeat); });
   bus.Subscribe<recording_status_t>(channel::kRecording, [this](const auto& status) { Hear(status); });
-  bus.executor().Every(kMotionPeriod, [this] { SendMotion(); });
-  bus.executor().Every(kStatusPeriod, [this] { SendStatusSoon(); });
-  bus.executor().Every(kAllStatusesPeriod, [this] { SendAllStatuses(); });
+  bus.executor().Every(
+      kMotionPeriod, [this] { SendMotion(); }, bus::kBetweenTicks);
+  bus.executor().Every(
+      kStatusPeriod, [this] { SendStatusSoon(); }, bus::kBetweenTicks);
+  bus.executor().Every(
+      kAllStatusesPeriod, [this] { SendAllStatuses(); }, bus::kBetweenTicks);
   bus.executor().Every(kLookPeriod, [this] { Look(); });
 }
 

@@ -34,11 +34,15 @@ FormationControllerNode::FormationControllerNode(bus::Bus& bus, const Controller
   });
   inbox_.Obey<path_command_t>(bus::channel::kCmdPath,
                               [this](const path_command_t& command) { return OnPathCommand(command); });
-  bus_.executor().Every(bus::kSecond / kRepeatParts, [this] {
-    StartWaiting(kStartInAPart);
-    RepeatFormations();
-  });
-  bus_.executor().Every(bus::kSecond, [this] { SaveState(); });
+  bus_.executor().Every(
+      bus::kSecond / kRepeatParts,
+      [this] {
+        StartWaiting(kStartInAPart);
+        RepeatFormations();
+      },
+      bus::kBetweenTicks);
+  bus_.executor().Every(
+      bus::kSecond, [this] { SaveState(); }, bus::kBetweenTicks);
 }
 
 void FormationControllerNode::OnRoster(const fleet_roster_t& roster) {

@@ -133,6 +133,8 @@ FleetSimulatorNode::FleetSimulatorNode(bus::Bus& bus, const SimulatorOptions& op
     bus_.executor().Every(bus::kSecond, [this] { state_file_.Save(Encode(StateNow())); });
 }
 
+bus::Utime FleetSimulatorNode::NextTick(bus::Utime now) { return (now + kPeriod - 1) / kPeriod * kPeriod; }
+
 std::unique_ptr<FleetSimulatorNode::Flight> FleetSimulatorNode::StartOrGoOn() {
   const bus::Utime now = bus_.executor().Now();
   const auto bytes = state_file_.Read();
@@ -140,13 +142,13 @@ std::unique_ptr<FleetSimulatorNode::Flight> FleetSimulatorNode::StartOrGoOn() {
   if (bytes && !state) state_file_.SetAside("it holds no flight");
   const bus::Utime gap = state ? now - (state->start_utime + state->tick * kPeriod) : 0;
   if (!state || state->started_with != started_with_ || gap < -bus::kSecond || gap > kLongestGap)
-    return std::make_unique<Flight>(options_, now, events_);
+    return std::make_unique<Flight>(options_, NextTick(now), events_);
   if (state->scenario != started_with_) options_.scenario = config::LoadScenario(state->scenario);
   options_.seed = state->seed;
   auto flight = std::make_unique<Flight>(options_, state->start_utime, events_);
   const bool same = std::ranges::equal(flight->fleet, state->vehicles, {}, &SimulatedVehicle::id,
                                        [](const auto& memory) { return memory.report.id; });
-  if (!same) return std::make_unique<Flight>(options_, now, events_);  // the file was edited meanwhile
+  if (!same) return std::make_unique<Flight>(options_, NextTick(now), events_);  // the file was edited meanwhile
   flight->Recall(*state);
   events_.Tell(
       event_t::ADVISORY, "simulator_restarted",

@@ -73,6 +73,7 @@ class FleetSimulatorNode {
     std::int64_t roster_due = 0;         ///< tick of the next round
   };
 
+  static bus::Utime NextTick(bus::Utime now);
   std::unique_ptr<Flight> StartOrGoOn();
   FlightState StateNow() const;
   void SaveNow();
