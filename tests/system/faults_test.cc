@@ -18,6 +18,7 @@
 #include <skein/heartbeat_t.hpp>
 #include <skein/link_status_t.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bus/channels.h"
@@ -170,9 +171,9 @@ TEST_F(FaultsTest, WhenTheSimulatorIsGoneThatIsToldWithinFiveSeconds) {
 
 TEST_F(FaultsTest, TwoFleetsOnOneNetworkKeepApartByTheirPorts) {
   StartAll();
-  const auto first = std::move(nodes_);
+  auto first = std::move(nodes_);
   const std::string first_url = url_;
-  folder_ = FreshFolder("skein-faults");
+  const std::string first_folder = std::exchange(folder_, FreshFolder("skein-faults"));
   url_ = FreshLcmUrl();
   StartAll();
   Skein({"formation", "hold", "1"});
@@ -192,6 +193,8 @@ TEST_F(FaultsTest, TwoFleetsOnOneNetworkKeepApartByTheirPorts) {
     EXPECT_EQ(sessions.size(), kNodes.size()) << "somebody stands by, or is not heard";
     for (const auto& [node, ids] : sessions) EXPECT_EQ(ids.size(), 1U) << node;
   }
+  first.clear();
+  std::filesystem::remove_all(first_folder);
 }
 
 TEST_F(FaultsTest, AFullDiskEndsNoFlightAndIsToldOnce) {

@@ -215,6 +215,7 @@ TEST_F(MonitorAlarms, AreAsTheyWereAfterARestartWithAStateFile) {
   EXPECT_EQ(StateOf("link:3"), kAcknowledged) << "it was found lost once more";
   EXPECT_EQ(Find("link:3")->id, id);
   EXPECT_EQ(StateOf("link:2"), kEnded);
+  node_.reset();  // it keeps its state once more
   std::filesystem::remove(options.state_file);
 }
 
@@ -290,6 +291,7 @@ TEST_F(MonitorAlarms, OfASilentFleetStayWhenTheMonitorStartsAnew) {
   fleet_.telemetry = true;
   Run(2);
   EXPECT_EQ(StateOf("fleet_silent"), kOver);
+  node_.reset();  // it keeps its state once more
   std::filesystem::remove(options.state_file);
 }
 
