@@ -15,6 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <skein/alarm_list_t.hpp>
 #include <skein/fleet_command_t.hpp>
 #include <skein/fleet_roster_t.hpp>
 #include <skein/formation_status_t.hpp>
@@ -41,6 +42,9 @@ const std::vector<std::string> kVictims{"fleet-simulator", "formation-controller
                                         "web-bridge",      "flight-recorder",      "lcm-logger"};
 /// What a process is promised to be back within, and so how old what it commands may have become.
 constexpr double kBack_s = 2;
+
+/// A node that was there before the flight and is silent since: an alarm that stays.
+const std::string kSilentNode = "payload-computer";
 
 /// Listens all the time, and notes what must not happen.
 class Watcher {
@@ -78,6 +82,18 @@ class Watcher {
       const std::lock_guard lock(mutex_);
       sessions_[heartbeat.heartbeat_node] = heartbeat.session_id;
     });
+    bus_.Subscribe<alarm_list_t>(bus::channel::kAlarms, [this](const alarm_list_t& list) {
+      const std::lock_guard lock(mutex_);
+      for (const alarm_t& alarm : list.alarms) {
+        if (alarm.condition == "node_silent:" + kSilentNode) alarms_[alarm.id] = alarm;
+      }
+    });
+    executor_.Every(bus::kSecond, [this] {
+      heartbeat_t heartbeat{};
+      heartbeat.utime = executor_.Now();
+      heartbeat.heartbeat_node = kSilentNode;
+      if (beats_-- > 0) bus_.Publish(bus::channel::kHeartbeat, heartbeat);
+    });
     thread_ = std::thread([this] { executor_.Run(); });
   }
   ~Watcher() {
@@ -103,6 +119,14 @@ class Watcher {
     return Locked([&] {
       const auto found = sessions_.find(node);
       return found == sessions_.end() ? 0 : found->second;
+    });
+  }
+  /// All alarms that the silent node ever was the reason for.
+  std::vector<alarm_t> alarms() const {
+    return Locked([this] {
+      std::vector<alarm_t> all;
+      for (const auto& [id, alarm] : alarms_) all.push_back(alarm);
+      return all;
     });
   }
   /// The farthest that a UAV is from its slot [m]; NaN when nothing was heard.
@@ -161,6 +185,8 @@ class Watcher {
   std::set<std::int64_t> flights_;
   std::map<int, std::pair<bus::Utime, vehicle_command_t>> last_;
   std::map<std::string, std::int64_t> sessions_;
+  int beats_ = 4;  ///< heartbeats that the silent node still sends
+  std::map<std::int64_t, alarm_t> alarms_;
   formation_status_t status_{};
   formation_t formation_{};
   path_t path_{};
@@ -241,6 +267,11 @@ TEST(Kills, LeaveTheFlightAsItWas) {
   const Finished marked = RunToEnd({Program("skein"), "--lcm-url", url, "formation", "hold", "1"});
   ASSERT_EQ(marked.exit_code, 0) << marked.output;
   ASSERT_TRUE(Await([&] { return watcher.formation().hold; }, 5s).first);
+  ASSERT_TRUE(Await([&] { return !watcher.alarms().empty(); }, 15s).first);
+  const alarm_t alarm = watcher.alarms().front();
+  const Finished seen =
+      RunToEnd({Program("skein"), "--lcm-url", url, "alarm", "ack", std::to_string(alarm.id)});
+  ASSERT_EQ(seen.exit_code, 0) << seen.output;
   const formation_t formation = watcher.formation();
   const std::int64_t revision = watcher.path().path_revision;
 
@@ -284,6 +315,9 @@ TEST(Kills, LeaveTheFlightAsItWas) {
   EXPECT_EQ(watcher.formation().slots.size(), formation.slots.size());
   EXPECT_TRUE(watcher.formation().hold) << "it holds, as it was told before";
   EXPECT_EQ(watcher.path().path_revision, revision);
+  ASSERT_EQ(watcher.alarms().size(), 1u) << "an alarm is raised once";
+  EXPECT_EQ(watcher.alarms().front().state, alarm_t::ACKNOWLEDGED);
+  EXPECT_EQ(watcher.alarms().front().raised_utime, alarm.raised_utime);
   EXPECT_TRUE(Await([&] { return page.Holds(); }, 10s).first) << "control is the same page's";
   for (const std::string& what : watcher.wrong()) ADD_FAILURE() << what;
   run.Signal(SIGINT);
