@@ -114,6 +114,8 @@ auto OfName(const std::string& name) {
 
 }  // namespace
 
+std::string Sha256(std::string_view secret) { return Hex(HashOf(secret)); }
+
 std::string_view NameOf(Role role) { return role == Role::kOperator ? "operator" : "viewer"; }
 
 fs::path DefaultTokensFile() {

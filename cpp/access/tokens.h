@@ -40,6 +40,9 @@ std::string NewToken(const std::filesystem::path& file, const std::string& name,
 /// Throws AccessError when there is none of that name.
 void RevokeToken(const std::filesystem::path& file, const std::string& name);
 
+/// Of a secret that nobody can find by trying: 64 hexadecimal digits.
+std::string Sha256(std::string_view secret);
+
 /// Whose secret it is; null when nobody's. Takes the same time whether and where it is found.
 const Token* Find(const std::vector<Token>& tokens, std::string_view secret);
 

@@ -2,10 +2,12 @@
 
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bridge/command_gateway.h"
+#include "bridge/control_desk.h"
 #include "bridge/history_query.h"
 #include "bridge/live_frame.h"
 #include "bridge/previewer.h"
@@ -30,6 +32,8 @@ struct Backend {
   std::function<void(HistoryQuery, Reply<std::string>)> history;
   /// An EVENT of the bridge itself.
   std::function<void(std::string code, std::string text)> tell;
+  /// Who holds control from now on, for a bridge that is started anew.
+  std::function<void(std::optional<KeptHolder>)> keep_holder;
   std::function<void(std::string channel, nlohmann::json body, Reply<CommandResult>)> command;
   std::function<void(PreviewRequest, Previewer::Gone, Reply<PreviewReply>)> preview;
 };

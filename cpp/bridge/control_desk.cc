@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "access/tokens.h"
+
 namespace skein::bridge {
 namespace {
 
@@ -43,10 +45,29 @@ std::string NameProblem(const std::string& name) {
   return "";
 }
 
+bool ControlDesk::Person::Has(const std::string& other_token) const {
+  if (other_token.empty()) return false;
+  return token.empty() ? token_sha256 == access::Sha256(other_token) : token == other_token;
+}
+
+void ControlDesk::WaitFor(const KeptHolder& holder, Time now) {
+  holder_ = ++last_number_;
+  Person& person = people_[holder_];
+  person.name = holder.name;
+  person.token_sha256 = holder.token_sha256;
+  person.dropped = now;
+}
+
+std::optional<KeptHolder> ControlDesk::Holder() const {
+  const auto holder = people_.find(holder_);
+  if (holder == people_.end()) return std::nullopt;
+  const Person& person = holder->second;
+  return KeptHolder{person.name, person.token.empty() ? person.token_sha256 : access::Sha256(person.token)};
+}
+
 int ControlDesk::Enter(const Introduction& introduction, Time now) {
-  const auto known = std::ranges::find_if(people_, [&](const auto& entry) {
-    return !introduction.token.empty() && entry.second.token == introduction.token;
-  });
+  const auto known =
+      std::ranges::find_if(people_, [&](const auto& entry) { return entry.second.Has(introduction.token); });
   int number = 0;
   const bool same =
       known != people_.end() &&
@@ -54,6 +75,7 @@ int ControlDesk::Enter(const Introduction& introduction, Time now) {
   if (same) {
     number = known->first;
     known->second.dropped.reset();
+    known->second.token = introduction.token;
     known->second.page = introduction.page;
     known->second.may_operate = introduction.may_operate;
     if (!introduction.name.empty()) known->second.name = UniqueName(introduction.name, number);
@@ -66,7 +88,11 @@ int ControlDesk::Enter(const Introduction& introduction, Time now) {
         // One that the tab made up itself is known even if it is reloaded before any answer has come.
         known == people_.end() && introduction.token.size() >= kLeastTokenSize ? introduction.token
                                                                                : NewToken(),
-        introduction.page, introduction.may_operate, std::nullopt, std::nullopt};
+        introduction.page,
+        introduction.may_operate,
+        std::nullopt,
+        std::nullopt,
+        {}};
   }
   if (introduction.take && holder_ == 0 && introduction.may_operate) Take(number, now);
   return number;

@@ -28,6 +28,14 @@ struct ControlRequest {
   std::string name{};  ///< the new one
 };
 
+/// What is kept of the holder beyond the end of this process.
+struct KeptHolder {
+  std::string name;
+  std::string token_sha256;
+
+  bool operator==(const KeptHolder&) const = default;
+};
+
 /// Who of the people at the pages holds control: one at a time, the others look on. Control is
 ///
 ///   free --take--> held --release, or gone for kGrace--> free, or held by the first who has asked
@@ -48,6 +56,12 @@ class ControlDesk {
   static constexpr std::size_t kLeastTokenSize = 32;
 
   explicit ControlDesk(Tell tell) : tell_(std::move(tell)) {}
+
+  /// Before anybody enters: this one held control when the bridge died, and is waited for like a holder whose
+  /// connection has dropped.
+  void WaitFor(const KeptHolder& holder, Time now);
+  /// Who holds control; none: nobody.
+  std::optional<KeptHolder> Holder() const;
 
   /// Returns his number, 1 or more. It may be one who is known, and even still there: then the other
   /// connection is a dead one of the same page.
@@ -77,6 +91,9 @@ class ControlDesk {
     bool may_operate = true;
     std::optional<Time> dropped;  ///< since when his connection is gone
     std::optional<Time> asked;    ///< since when he asks for control
+    std::string token_sha256{};   ///< of one from before the bridge was started, whose token is not known
+
+    bool Has(const std::string& other_token) const;
   };
 
   bus::Answer Take(int person, Time now);

@@ -98,7 +98,13 @@ LiveFrame LiveHub::ControlFrame(const LiveSession& session) const {
   return TextFrame(Dump(desk_.View(session.person, Now())), "control");
 }
 
+void LiveHub::WaitFor(const KeptHolder& holder) {
+  desk_.WaitFor(holder, Now());
+  kept_ = holder;
+}
+
 void LiveHub::TellControl() {
+  if (const auto holder = desk_.Holder(); holder != kept_) backend_.keep_holder(kept_ = holder);
   for (const auto& weak : sessions_) {
     if (const auto session = weak.lock()) session->Send(ControlFrame(*session));
   }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ class LiveHub {
  public:
   explicit LiveHub(Backend backend) : backend_(std::move(backend)), desk_(backend_.tell) {}
 
+  /// Before anybody joins: see ControlDesk::WaitFor.
+  void WaitFor(const KeptHolder& holder);
   /// Sends it the last of everything; from then on it gets what is broadcast.
   void Join(const std::shared_ptr<LiveSession>& session);
   /// Its connection has ended.
@@ -40,6 +43,7 @@ class LiveHub {
 
   Backend backend_;
   ControlDesk desk_;
+  std::optional<KeptHolder> kept_;  ///< the holder as the backend knows him
   std::vector<std::weak_ptr<LiveSession>> sessions_;
 };
 

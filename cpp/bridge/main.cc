@@ -54,6 +54,8 @@ int main(int argc, char** argv) {
       ->check(CLI::ExistingPath);
   node.app().add_option("--tile-attribution", options.hello.tile_attribution,
                         "What the map must say of its tiles");
+  node.app().add_option("--state-file", options.state_file,
+                        "Keeps who holds control here, who still does after a restart within 10 s");
   std::string replay;
   double replay_speed = 1;
   auto* replay_option = node.app().add_option("--replay", replay,

@@ -21,6 +21,7 @@
 #include "bridge/web_server.h"
 #include "bus/events.h"
 #include "bus/live_executor.h"
+#include "bus/state_file.h"
 
 namespace skein::bridge {
 
@@ -33,6 +34,9 @@ struct BridgeOptions {
   std::optional<MapTiles> tiles;
   /// Makes what serves recordings, owned by the bridge alone (its threads end with it); none: there are none.
   std::function<std::shared_ptr<const Recordings>()> make_recordings;
+  /// Where is kept who holds control, so that he still does when the bridge was killed and is back; "":
+  /// nowhere.
+  std::filesystem::path state_file;
   HelloInfo hello;
 };
 
@@ -52,10 +56,16 @@ class WebBridge {
 
  private:
   Backend MakeBackend(bus::LiveExecutor& executor, bool replay);
+  /// Who held control when the bridge died a moment ago; none: nobody.
+  std::optional<KeptHolder> ReadHolder();
+  void SaveHolder();
 
+  bus::LiveExecutor& executor_;
   BusMirror mirror_;
   CommandGateway gateway_;
   bus::Events events_;
+  bus::StateFile state_file_;
+  std::optional<KeptHolder> holder_;  ///< on the bus's thread
   boost::asio::io_context web_context_;
   WebServer server_;
   std::uint16_t port_;

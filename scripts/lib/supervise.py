@@ -129,7 +129,7 @@ class Flight:
         self.simulator = node("fleet-simulator", *scenario, *state("fleet-simulator"))
         self.nodes = [
             node("web-bridge", "--port", str(options.port), "--web", str(options.root / "web" / "dist"),
-                 "--logs", str(self.logs), *tiles, *access),
+                 "--logs", str(self.logs), *tiles, *access, *state("web-bridge")),
             node("collision-monitor", *scenario, *state("collision-monitor")),
             node("formation-controller", *scenario, *state("formation-controller")),
             self.simulator,

@@ -166,6 +166,32 @@ TEST_F(ControlDeskTest, ThePageItselfComesBackBeforeItsDeadConnectionIsNoticed) 
   EXPECT_EQ(desk_.View(0, now_)["people"].size(), 1u);
 }
 
+TEST_F(ControlDeskTest, WhoHeldControlWhenTheBridgeDiedIsWaitedForByTheNextOne) {
+  const std::string token = TokenOf(Enter("Ada"));
+  const KeptHolder kept = desk_.Holder().value();
+  EXPECT_EQ(kept.name, "Ada");
+  EXPECT_EQ(kept.token_sha256.find(token), std::string::npos);
+  ControlDesk next([](const std::string&, const std::string&) {});
+  next.WaitFor(kept, now_);
+  EXPECT_EQ(next.Holder(), kept);
+  const int bob = next.Enter({.name = "Bob"}, now_);
+  EXPECT_EQ(next.WhyNot(bob), "Ada holds control");
+  const int ada = next.Enter({.name = "Ada", .token = token}, now_);
+  EXPECT_EQ(next.WhyNot(ada), "");
+  EXPECT_EQ(next.Who(token), ada);
+  EXPECT_EQ(next.Holder(), kept);
+}
+
+TEST_F(ControlDeskTest, WhoDoesNotComeBackAfterTheBridgeDiedHoldsControlNoLonger) {
+  desk_.WaitFor({"Ada", "0123"}, now_);
+  const int bob = Enter("Bob");
+  EXPECT_FALSE(Look(9s));
+  EXPECT_FALSE(Ask(bob, Action::kTake).accepted);
+  EXPECT_TRUE(Look(1s));
+  EXPECT_TRUE(Ask(bob, Action::kTake).accepted);
+  EXPECT_EQ(told_.front(), "control_lost: Ada has been gone for 10 s: control is free");
+}
+
 TEST_F(ControlDeskTest, ATokenIsTheBusinessOfItsOwnerAlone) {
   const int ada = Enter("Ada");
   const int bob = Enter("Bob");
