@@ -106,6 +106,41 @@ TEST_F(UnitsTest, GiveProgramsOptionsThatTheyHave) {
   }
 }
 
+TEST_F(UnitsTest, HaveAFolderForTemporaryFilesInANetworkOfTheirOwn) {
+  // Who joins another unit's network joins its /tmp, too.
+  EXPECT_NE(Content(kDeploy / "systemd/single-host/skein-bus.conf").find("\nPrivateTmp=yes\n"),
+            std::string::npos);
+}
+
+/// The shell's part of a line of skein-bus.service, as systemd would run it.
+std::string BusScript(const std::string& key) {
+  std::string unit = Content(kDeploy / "systemd/skein-bus.service");
+  for (const auto& [from, to] : {std::pair("\\\n", ""), std::pair("$$", "$"), std::pair("%%", "%")}) {
+    for (std::size_t at = 0; (at = unit.find(from, at)) != std::string::npos; at += std::string(to).size())
+      unit.replace(at, std::string(from).size(), to);
+  }
+  const std::string begin = "\n" + key + "=sh -c '";
+  const std::size_t start = unit.find(begin) + begin.size();
+  return unit.substr(start, unit.find("'\n", start) - start);
+}
+
+TEST_F(UnitsTest, MakeARouteOverLoForABusThatStaysOnThisHostAndTakeItAway) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root";
+  const std::string routes = "; ip -4 route show; echo -; ";
+  const std::string script = "mount -t tmpfs none /run && ip link set lo up && (" + BusScript("ExecStart") +
+                             ")" + routes + BusScript("ExecStop") + routes;
+  const auto run = [&](const std::string& url) {
+    return RunToEnd({"env", "LCM_DEFAULT_URL=" + url, "unshare", "--net", "--mount", "sh", "-ec", script})
+        .output;
+  };
+  EXPECT_EQ(run("udpm://239.255.76.67:7667?ttl=0"), "239.255.76.67 dev lo scope link \n-\n-\n");
+  EXPECT_EQ(run("udpm://239.255.9.9:7700"), "239.255.9.9 dev lo scope link \n-\n-\n") << "LCM's ttl is 0";
+  EXPECT_EQ(run("udpm://239.255.76.67:7667?recv_buf_size=100000&ttl=0"),
+            "239.255.76.67 dev lo scope link \n-\n-\n");
+  EXPECT_EQ(run("udpm://239.255.76.67:7667?ttl=1"), "-\n-\n") << "others would find themselves on lo";
+  EXPECT_EQ(run("tcpq://10.0.0.1:7700"), "-\n-\n");
+}
+
 /// Runs a script beside this file; skips the test when it says, with exit code 77, that it cannot be done
 /// here.
 void RunOrSkip(const std::vector<std::string>& command) {
