@@ -55,11 +55,28 @@ TEST_F(StaticFilesTest, GivesThePageForPathsOfTheAppButNotForFilesThatAreMissing
 }
 
 TEST_F(StaticFilesTest, NeverLeavesItsFolder) {
-  for (const char* target :
-       {"/../outside.txt", "/assets/../../outside.txt", "/%2e%2e/outside.txt", "/..%2foutside.txt",
-        "/%2E%2E%2Foutside.txt", "//../outside.txt", "/..\\outside.txt", "/assets/..%5c..%5coutside.txt",
-        "../outside.txt", "outside.txt", "/%00/../outside.txt", "/index.html%00.txt", "/.secret",
-        "/%2esecret", "/%2", "/%", "/%zz.txt", "", "*"}) {
+  for (const char* target : {"/../outside.txt",
+                             "/assets/../../outside.txt",
+                             "/%2e%2e/outside.txt",
+                             "/..%2foutside.txt",
+                             "/%2E%2E%2Foutside.txt",
+                             "//../outside.txt",
+                             "/..\\outside.txt",
+                             "/assets/..%5c..%5coutside.txt",
+                             "../outside.txt",
+                             "outside.txt",
+                             "/%00/../outside.txt",
+                             "/index.html%00.txt",
+                             "/.secret",
+                             "/%2esecret",
+                             "/%2",
+                             "/%",
+                             "/%zz.txt",
+                             "",
+                             "*",
+                             "/%252e%252e/outside.txt",
+                             "/..%252foutside.txt",
+                             "/%252e%252e%252foutside.txt"}) {
     EXPECT_EQ(Content(target), "nothing") << target;
   }
   EXPECT_EQ(Content((folder_ / "outside.txt").string()), "nothing");
