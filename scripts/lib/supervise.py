@@ -18,8 +18,9 @@ START_TIMEOUT_S = 20
 STOP_TIMEOUT_S = 5
 # Without a recording, for want of room say, the flight begins all the same: the page tells.
 RECORDING_TIMEOUT_S = 2
-# A process that dies this often in a row, each time so soon after its start, is not started again.
-SHORT_LIVES, SHORT_LIFE_S = 5, 5
+# A process that dies this often in a row, each time so soon after its start, is started again only every RETRY_S: something is
+# wrong with it, or somebody on the network ends it again and again.
+SHORT_LIVES, SHORT_LIFE_S, RETRY_S = 5, 5, 5
 
 # Holds something to read once Ctrl-C or the like has asked to end; asking again changes nothing. The interpreter writes
 # it: a threading.Event that a signal sets is locked for ever when the signal comes while it is looked at or set.
@@ -56,6 +57,7 @@ class Process:
         self.name, self.command, self.output = name, command, output
         self.child = None
         self.started = 0.0
+        self.died = None  # since when it is to be started again
         self.short_lives = 0
 
     def start(self):
@@ -91,17 +93,23 @@ class Process:
         lines = self.output.read_text(errors="replace").splitlines()[-15:]
         return "\n".join("    " + line for line in lines) or "    (it printed nothing)"
 
-    def revive(self):
-        """Starts it again after its death, or gives it up and returns False."""
-        lived_s = time.monotonic() - self.started
-        self.short_lives = self.short_lives + 1 if lived_s < SHORT_LIFE_S else 0
-        if self.short_lives >= SHORT_LIVES:
-            say(f"{self.name} died {SHORT_LIVES} times in a row within {SHORT_LIFE_S} s of its start ({self.how_it_ended()}) "
-                f"and is not started again; the others go on. Its last lines ({self.output}):\n{self.last_lines()}")
-            return False
-        say(f"{self.name} died ({self.how_it_ended()}): started again")
-        self.start()
-        return True
+    def tend(self):
+        """Starts it again after its death: at once, or now and then when it never lives for long."""
+        if self.runs():
+            return
+        now = time.monotonic()
+        if self.died is None:
+            self.died = now
+            self.short_lives = self.short_lives + 1 if now - self.started < SHORT_LIFE_S else 0
+            if self.short_lives < SHORT_LIVES:
+                say(f"{self.name} died ({self.how_it_ended()}): started again")
+            elif self.short_lives == SHORT_LIVES:
+                say(f"{self.name} died {SHORT_LIVES} times in a row within {SHORT_LIFE_S} s of its start ({self.how_it_ended()}) "
+                    f"and is started again every {RETRY_S} s now; the others go on. Its last lines ({self.output}):\n"
+                    f"{self.last_lines()}")
+        if self.short_lives < SHORT_LIVES or now >= self.died + RETRY_S:
+            self.died = None
+            self.start()
 
 
 class Flight:
@@ -186,11 +194,10 @@ class Flight:
         return [process.name for process in self.processes if process.name not in heard]
 
     def keep_running(self):
-        kept = list(self.processes)
-        while kept:
-            kept = [process for process in kept if process.runs() or process.revive()]
+        while True:
+            for process in self.processes:
+                process.tend()
             pause()
-        raise StartFailed("nothing is left running")
 
     def stop(self):
         """Ends all; the recorder last, so that the log holds everything."""

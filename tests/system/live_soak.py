@@ -106,14 +106,15 @@ def fly(options, folder):
     return samples, end, problems
 
 
-def replayed(options, logs):
+def replayed(options, logs, speed=REPLAY_SPEED):
+    """{id: where it is} on the page after lcm-logplayer has played the logs."""
     bridge = subprocess.Popen([str(options.build / "bin/web-bridge"), "--lcm-url", url_of(REPLAY_LCM_PORT), "--port",
-                               str(REPLAY_PAGE_PORT), "--replay", logs[0].name, "--replay-speed", str(REPLAY_SPEED)],
+                               str(REPLAY_PAGE_PORT), "--replay", logs[0].name, "--replay-speed", str(speed)],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         time.sleep(1)
         for log in logs:
-            subprocess.run(["lcm-logplayer", f"--speed={REPLAY_SPEED}", f"--lcm-url={url_of(REPLAY_LCM_PORT)}",
+            subprocess.run(["lcm-logplayer", f"--speed={speed}", f"--lcm-url={url_of(REPLAY_LCM_PORT)}",
                             "--regexp=(?!CMD_).*", str(log)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         time.sleep(1)
         return places(REPLAY_PAGE_PORT)

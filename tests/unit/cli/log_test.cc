@@ -206,7 +206,7 @@ TEST_F(LogTest, SaysWhichChannelsThereAre) {
 
 TEST_F(LogTest, CutsAPartThatBeginsWithTheWholeState) {
   const std::string file = In("cut.lcm");
-  Run({"cut", flight(), "--from", "10.02", "--to", "25", "--out", file});
+  Run({"cut", flight(), "--from", "10.03", "--to", "25", "--out", file});
   const auto whole = Json({"info", flight(), "--json"});
   const auto info = Json({"info", file, "--json"});
   EXPECT_NEAR(info["duration_s"], 15, 0.1);
@@ -222,7 +222,7 @@ TEST_F(LogTest, CutsAPartThatBeginsWithTheWholeState) {
   }
   // What happened is there once, and nothing from before.
   EXPECT_EQ(Json({"events", file, "--json"}).size(),
-            Json({"events", flight(), "--json", "--from", "10.02", "--to", "25"}).size());
+            Json({"events", flight(), "--json", "--from", "10.03", "--to", "25"}).size());
   lcm::LogFile other(file, "r");
   std::int64_t number = 0;
   while (const lcm::LogEvent* event = other.readNextEvent()) EXPECT_EQ(event->eventnum, number++);
