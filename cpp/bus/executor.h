@@ -11,8 +11,8 @@ using Utime = std::int64_t;
 
 inline constexpr Utime kSecond = 1'000'000;
 
-/// The phase of what need not be done while a tick of FLEET_STATE and its answer fill the bus: fleet-simulator
-/// has its ticks at whole multiples of 50 ms.
+/// The phase of what can wait while a tick of FLEET_STATE and its answer fill the bus: fleet-simulator's
+/// ticks are at whole multiples of 50 ms.
 inline constexpr Utime kBetweenTicks = 25'000;
 
 inline constexpr Utime ToUtime(double seconds) {

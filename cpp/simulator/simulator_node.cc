@@ -148,7 +148,8 @@ std::unique_ptr<FleetSimulatorNode::Flight> FleetSimulatorNode::StartOrGoOn() {
   auto flight = std::make_unique<Flight>(options_, state->start_utime, events_);
   const bool same = std::ranges::equal(flight->fleet, state->vehicles, {}, &SimulatedVehicle::id,
                                        [](const auto& memory) { return memory.report.id; });
-  if (!same) return std::make_unique<Flight>(options_, NextTick(now), events_);  // the file was edited meanwhile
+  if (!same)
+    return std::make_unique<Flight>(options_, NextTick(now), events_);  // the file was edited meanwhile
   flight->Recall(*state);
   events_.Tell(
       event_t::ADVISORY, "simulator_restarted",

@@ -167,6 +167,15 @@ TEST_F(FaultsTest, WhenTheSimulatorIsGoneThatIsToldWithinFiveSeconds) {
   // Nobody climbs for it: it is one alarm about the fleet, and none about a UAV's link.
   EXPECT_FALSE(HearsAlarm(
       "link:1", [](const alarm_t&) { return true; }, 4s));
+  // Nor when it is back: all are heard again at once.
+  nodes_["fleet-simulator"] = Start("fleet-simulator");
+  EXPECT_FALSE(Hears<formation_status_t>(
+      url_, bus::channel::kFormationStatus,
+      [](const formation_status_t& status) {
+        return status.avoidance_up_m != 0 || status.avoidance_target_m != 0;
+      },
+      15s));
+  EXPECT_EQ(NextState().vehicles.size(), 3U);
 }
 
 TEST_F(FaultsTest, TwoFleetsOnOneNetworkKeepApartByTheirPorts) {
