@@ -18,19 +18,25 @@ def resident_mb(pid):
     return None
 
 
+def watch(child, pause_s):
+    """What it takes [MB], looked at again and again until it has ended."""
+    samples = []
+    while child.poll() is None:
+        try:
+            if (size := resident_mb(child.pid)) is not None:
+                samples.append(size)
+        except FileNotFoundError:
+            break
+        time.sleep(pause_s)
+    return samples
+
+
 def main():
     scenario = sys.argv[1] if len(sys.argv) > 1 else "column"
     seconds = sys.argv[2] if len(sys.argv) > 2 else "86400"
     flight = subprocess.Popen([BUILD / "bin" / "flight-experiment", scenario, "--duration", seconds, "--log-level", "off"],
                               stdout=subprocess.PIPE, text=True)
-    samples = []
-    while flight.poll() is None:
-        try:
-            if (size := resident_mb(flight.pid)) is not None:
-                samples.append(size)
-        except FileNotFoundError:
-            break
-        time.sleep(1)
+    samples = watch(flight, 1)
     print("\n".join(flight.stdout.read().splitlines()[-3:]))
     parts = [samples[len(samples) * part // 10] for part in range(10)] + [samples[-1]]
     print("resident, MB, at each tenth of it:", ", ".join(f"{size:.1f}" for size in parts))

@@ -13,13 +13,12 @@ import pathlib
 import subprocess
 import sys
 import tempfile
-import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path += [str(ROOT / "tests/bench"), str(ROOT / "tests/system")]
 
 from live_soak import replayed  # noqa: E402
-from memory_over_a_day import resident_mb  # noqa: E402
+from memory_over_a_day import watch  # noqa: E402
 
 REPLAY_SPEED = 200
 NEAR_M = 0.1  # the CSV has millimetres, the page single precision
@@ -30,14 +29,7 @@ def fly(options, folder):
     flight = subprocess.Popen([str(options.build / "bin/flight-experiment"), options.scenario, "--duration", str(3600 * options.hours),
                                "--csv", str(folder / "flight.csv"), "--log", str(folder / "flight.lcm"), "--log-level", "off"],
                               stdout=open(folder / "summary.txt", "wb"))
-    samples = []
-    while flight.poll() is None:
-        try:
-            if (size := resident_mb(flight.pid)) is not None:
-                samples.append(size)
-        except FileNotFoundError:
-            break
-        time.sleep(0.2)
+    samples = watch(flight, 0.05)
     return flight.wait(), samples
 
 
