@@ -32,12 +32,9 @@ async function previewed(): Promise<string> {
 
 /** In the middle of a slot's disc, on the page. */
 async function slotAt(id: number): Promise<{ x: number; y: number }> {
-  const { box, seen } = await screen.atRest(async () => ({
-    box: await screen.page.locator(kCanvas).boundingBox(),
-    seen: await screen.symbol(id, kCanvas),
-  }));
-  if (box === null || seen === null) throw new Error(`the slot of UAV${id} is not to be seen`);
-  return { x: box.x + seen.x, y: box.y + seen.y };
+  const seen = await screen.atRest(() => screen.symbol(id, kCanvas));
+  if (seen === null) throw new Error(`the slot of UAV${id} is not to be seen`);
+  return seen;
 }
 
 /** How far a UAV is from its slot, as the list of places says. */
@@ -178,11 +175,10 @@ test("what another operator changes meanwhile is pointed out, and the draft is k
 test("a new formation is made of what is selected", async () => {
   explain(station);
   await screen.show(1280, 720, "dark");
-  const box = await screen.page.locator(".map").boundingBox();
   await until(async () => {
     const seen = await screen.symbol(4);
-    if (box === null || seen === null) throw new Error("UAV4 is not on the map");
-    await screen.page.mouse.click(box.x + seen.x, box.y + seen.y);
+    if (seen === null) throw new Error("UAV4 is not on the map");
+    await screen.page.mouse.click(seen.x, seen.y);
     expect(await screen.button("New").isEnabled()).toBe(true);
   }, 10_000);
   await screen.button("New").click();

@@ -151,10 +151,7 @@ export class Screen {
   }
 
   payload(callsign: string): Locator {
-    return this.page.getByRole("switch", {
-      name: `Payload of ${callsign}`,
-      exact: true,
-    });
+    return this.page.getByRole("switch", { name: `Payload of ${callsign}`, exact: true });
   }
 
   text(selector: string): Promise<string> {
@@ -162,8 +159,8 @@ export class Screen {
   }
 
   /**
-   * Where on the map, or on another canvas, a UAV's symbol is: the middle of the pixels in its identity colour. Null: it isn't
-   * to be seen.
+   * Where on the page a UAV's symbol is, drawn on the map or on another canvas: the middle of the pixels in its identity colour.
+   * Null: it isn't to be seen.
    */
   symbol(id: number, canvas = "canvas.fleet"): Promise<Centre | null> {
     return this.page.evaluate(
@@ -188,7 +185,10 @@ export class Screen {
           x += (i / 4) % canvas.width;
           y += Math.floor(i / 4 / canvas.width);
         }
-        return count < 20 ? null : { x: x / count, y: y / count };
+        // With the pixels, for a canvas moves along with the map until it is drawn again.
+        const box = drawn.getBoundingClientRect();
+        const drawn_px = count * (drawn.width / box.width);
+        return count < 20 ? null : { x: box.x + x / drawn_px, y: box.y + y / drawn_px };
       },
       [id, canvas] as const,
     );

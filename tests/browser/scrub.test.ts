@@ -212,7 +212,8 @@ test("the charts show all of the flight at once, and where in it we are", async 
   const played = plot.locator(".played");
   const left = async () => (await played.boundingBox())?.x ?? NaN;
   await goTo("5");
-  const box = await plot.boundingBox();
+  // The tab has only just been opened.
+  const box = await screen.atRest(() => plot.boundingBox());
   if (box === null) throw new Error("the chart isn't there");
   await until(async () => expect(await left()).toBeLessThan(box.x + box.width / 2));
   // A press on a chart goes there.
