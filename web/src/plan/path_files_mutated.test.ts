@@ -1,4 +1,8 @@
-/** Path files that somebody has damaged: each is read, into waypoints that make sense, or refused in words. */
+/**
+ * Path files that somebody has damaged: each is read, into waypoints that make sense, or refused in words.
+ * SKEIN_FUZZ_SECONDS: how long each kind is tried (scripts/soak fuzz); kFiles files otherwise.
+ */
+import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { DOMParser } from "@xmldom/xmldom";
 import { expect, test } from "vitest";
 import { randomFrom } from "../state/random_for_tests";
@@ -19,6 +23,11 @@ const kPlan = {
   })),
 };
 const kFiles = 1500;
+const kLong_s = Number(process.env.SKEIN_FUZZ_SECONDS ?? 0);
+/** Files that were read although something had been done to them: damaged further, they get deeper than the first. */
+const kMostKept = 500;
+const kFolder = `${import.meta.dirname}/../../../tests/fuzz`;
+const kKinds = ["geojson", "kml", "plan"] as const;
 /** What breaks readers: in the place of any value. */
 const kValues = [
   "null",
@@ -69,31 +78,50 @@ function parse(text: string): Document {
   }
 }
 
-test.each(["geojson", "kml", "plan"] as const)(
+/** What is wrong with how a file was taken; empty when it was read, or refused in words, as it should. */
+function take(text: string): { read: boolean; wrong: string } {
+  try {
+    const { waypoints } = readPathFile(text, kFrame, kDefaults, parse);
+    const finite = waypoints.every((point) => Object.values(point).every(Number.isFinite));
+    return { read: true, wrong: waypoints.length > 0 && finite ? "" : JSON.stringify(waypoints) };
+  } catch (error) {
+    if (!(error instanceof PathFileError)) return { read: false, wrong: String(error) };
+    return { read: false, wrong: error.message.length > 5 ? "" : "refused without words" };
+  }
+}
+
+const seedsOf = (kind: (typeof kKinds)[number]) => [
+  writePathFile(kind, kPlan, [], kFrame, "Alpha"),
+  ...["seeds", "findings"]
+    .map((which) => `${kFolder}/${which}/path_files`)
+    .filter(existsSync)
+    .flatMap((folder) => readdirSync(folder).map((name) => `${folder}/${name}`))
+    .filter((file) => file.endsWith(`.${kind}`))
+    .map((file) => readFileSync(file, "utf8")),
+];
+
+test.each(kKinds)(
   "%s",
   (kind) => {
     const seed = Math.floor(Math.random() * 2 ** 31);
-    const told = (text: string) => `seed ${seed}:\n${text}`;
     const random = randomFrom(seed);
-    const good = writePathFile(kind, kPlan, [], kFrame, "Alpha");
-    let refused = 0;
-    for (let i = 0; i < kFiles; i += 1) {
-      let text = mutated(good, random);
+    const kept = seedsOf(kind);
+    for (const text of kept) expect(take(text).wrong, text).toBe("");
+    const first = kept.length;
+    const end_ms = performance.now() + 1000 * kLong_s;
+    let [refused, files] = [0, 0];
+    for (; kLong_s > 0 ? performance.now() < end_ms : files < kFiles; files += 1) {
+      let text = mutated(kept[Math.floor(random() * kept.length)] ?? "", random);
       if (random() < 0.3) text = mutated(text, random);
-      try {
-        const { waypoints } = readPathFile(text, kFrame, kDefaults, parse);
-        expect(waypoints.length, told(text)).toBeGreaterThan(0);
-        for (const point of waypoints)
-          expect(Object.values(point).every(Number.isFinite), told(text)).toBe(true);
-      } catch (error) {
-        if (!(error instanceof PathFileError))
-          throw new Error(`${String(error)} of ${told(text)}`, { cause: error });
-        expect(error.message.length, told(text)).toBeGreaterThan(5);
-        refused += 1;
-      }
+      const { read, wrong } = take(text);
+      expect(wrong, `seed ${seed}, file ${files}:\n${text}`).toBe("");
+      if (!read) refused += 1;
+      else if (kept.length < kMostKept) kept.push(text);
+      else kept[first + Math.floor(random() * (kMostKept - first))] = text;
     }
-    // Some do no harm, most do.
-    expect(refused).toBeGreaterThan(kFiles / 10);
+    // Some do no harm, many do.
+    expect(refused).toBeGreaterThan(files / 10);
+    if (kLong_s > 0) process.stdout.write(`${kind}: ${files} files, ${refused} of them refused\n`);
   },
-  60_000,
+  60_000 + 1000 * kLong_s,
 );
