@@ -1,8 +1,10 @@
 #include "bridge/command_gateway.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "bridge/command_parser.h"
+#include "bridge/names_in.h"
 #include "bus/channels.h"
 #include "bus/validate.h"
 #include "config/scenario.h"
@@ -12,52 +14,51 @@ namespace {
 
 using Outcome = CommandResult::Outcome;
 
-const char* Obeys(const std::string& channel) {
-  if (channel == bus::channel::kCmdAlarm) return "collision-monitor";
-  if (channel == bus::channel::kCmdRecording) return "flight-recorder";
-  const bool fleet = channel == bus::channel::kCmdLink || channel == bus::channel::kCmdPayload ||
-                     channel == bus::channel::kCmdSimulation;
-  return fleet ? "fleet-simulator" : "formation-controller";
-}
+constexpr const char* kSimulator = "fleet-simulator";
+constexpr const char* kController = "formation-controller";
+constexpr const char* kMonitor = "collision-monitor";
+constexpr const char* kRecorder = "flight-recorder";
 
 }  // namespace
 
-CommandGateway::CommandGateway(bus::Bus& bus) : bus_(bus), outbox_(bus) {}
+CommandGateway::CommandGateway(bus::Bus& bus) : bus_(bus), outbox_(bus) {
+  Take(bus::channel::kCmdLink, kSimulator,
+       [this](const nlohmann::json& body) { return ParseLinkCommand(body, bus_.executor().Now()); });
+  Take(bus::channel::kCmdPayload, kSimulator, ParsePayloadCommand);
+  Take(bus::channel::kCmdFormation, kController, ParseFormationCommand);
+  Take(bus::channel::kCmdPath, kController, ParsePathCommand);
+  Take(bus::channel::kCmdSimulation, kSimulator, ParseSimulationCommand);
+  Take(bus::channel::kCmdAlarm, kMonitor, ParseAlarmCommand);
+  Take(bus::channel::kCmdRecording, kRecorder, ParseRecordingCommand);
+}
+
+template <typename Parse>
+void CommandGateway::Take(const char* channel, const char* obeyed_by, Parse parse) {
+  channels_.emplace_back(channel, [=, this](const nlohmann::json& body, const Done& done) {
+    Publish(channel, obeyed_by, parse(body), done);
+  });
+}
 
 void CommandGateway::Send(const std::string& channel, const nlohmann::json& body, Done done) {
   if (outbox_.waiting() >= kMaxWaiting) {
     done({Outcome::kBusy, "too many commands wait for an answer: try again in 2 s"});
     return;
   }
-  // `done` is not moved on: a body that is refused needs it too.
+  const auto known =
+      std::ranges::find_if(channels_, [&](const auto& entry) { return entry.first == channel; });
+  if (known == channels_.end()) {
+    done({Outcome::kMalformed, "channel: must be " + NamesIn(channels_) + ", is " + channel.substr(0, 40)});
+    return;
+  }
   try {
-    if (channel == bus::channel::kCmdLink) {
-      Publish(channel, ParseLinkCommand(body, bus_.executor().Now()), done);
-    } else if (channel == bus::channel::kCmdPayload) {
-      Publish(channel, ParsePayloadCommand(body), done);
-    } else if (channel == bus::channel::kCmdFormation) {
-      Publish(channel, ParseFormationCommand(body), done);
-    } else if (channel == bus::channel::kCmdPath) {
-      Publish(channel, ParsePathCommand(body), done);
-    } else if (channel == bus::channel::kCmdSimulation) {
-      Publish(channel, ParseSimulationCommand(body), done);
-    } else if (channel == bus::channel::kCmdAlarm) {
-      Publish(channel, ParseAlarmCommand(body), done);
-    } else if (channel == bus::channel::kCmdRecording) {
-      Publish(channel, ParseRecordingCommand(body), done);
-    } else {
-      done({Outcome::kMalformed,
-            "channel: must be CMD_LINK, CMD_PAYLOAD, CMD_FORMATION, CMD_PATH, CMD_SIMULATION, CMD_ALARM or "
-            "CMD_RECORDING, is " +
-                channel.substr(0, 40)});
-    }
+    known->second(body, done);
   } catch (const config::ConfigError& error) {
     done({Outcome::kMalformed, error.what()});
   }
 }
 
 template <typename Command>
-void CommandGateway::Publish(const std::string& channel, Command command, Done done) {
+void CommandGateway::Publish(const std::string& channel, const char* obeyed_by, Command command, Done done) {
   // The nodes drop what is not valid in silence; the numbers were checked field by field, but not every text.
   if (!bus::Valid(command)) {
     done({Outcome::kMalformed, channel + ": holds a text that is too long or has control characters"});
@@ -69,10 +70,9 @@ void CommandGateway::Publish(const std::string& channel, Command command, Done d
       });
   const bus::Utime now = bus_.executor().Now();
   bus_.executor().At(now + kResendAfter, [this, request_id] { outbox_.Repeat(request_id); });
-  bus_.executor().At(now + kGiveUpAfter, [this, request_id, channel, done = std::move(done)] {
+  bus_.executor().At(now + kGiveUpAfter, [this, request_id, channel, obeyed_by, done = std::move(done)] {
     if (!outbox_.Forget(request_id)) return;
-    done({Outcome::kNoAnswer,
-          "nobody answered " + channel + " within 2 s: is " + Obeys(channel) + " running?"});
+    done({Outcome::kNoAnswer, "nobody answered " + channel + " within 2 s: is " + obeyed_by + " running?"});
   });
 }
 

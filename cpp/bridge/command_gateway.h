@@ -3,6 +3,8 @@
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "bus/bus.h"
 #include "bus/command_outbox.h"
@@ -24,10 +26,11 @@ class CommandGateway {
   using Done = std::function<void(const CommandResult&)>;
 
   explicit CommandGateway(bus::Bus& bus);
+  CommandGateway(const CommandGateway&) = delete;
+  CommandGateway& operator=(const CommandGateway&) = delete;
 
-  /// @param channel "CMD_LINK", "CMD_PAYLOAD", "CMD_FORMATION", "CMD_PATH" or
-  /// "CMD_SIMULATION". @param body as in README.md.
-  /// `done` is called once, possibly at once.
+  /// @param channel of an operator's command, "CMD_LINK" for one; others are refused by name. @param body as
+  /// in README.md. `done` is called once, possibly at once.
   void Send(const std::string& channel, const nlohmann::json& body, Done done);
 
   static constexpr bus::Utime kResendAfter = 1 * bus::kSecond;
@@ -35,11 +38,16 @@ class CommandGateway {
   static constexpr std::size_t kMaxWaiting = 64;
 
  private:
+  using SendBody = std::function<void(const nlohmann::json& body, const Done&)>;
+
+  template <typename Parse>
+  void Take(const char* channel, const char* obeyed_by, Parse parse);
   template <typename Command>
-  void Publish(const std::string& channel, Command command, Done done);
+  void Publish(const std::string& channel, const char* obeyed_by, Command command, Done done);
 
   bus::Bus& bus_;
   bus::CommandOutbox outbox_;
+  std::vector<std::pair<std::string, SendBody>> channels_;  ///< all that are taken
 };
 
 }  // namespace skein::bridge

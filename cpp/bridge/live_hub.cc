@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bridge/json_messages.h"
+#include "bridge/names_in.h"
 #include "config/json_reader.h"
 
 namespace skein::bridge {
@@ -30,9 +31,7 @@ ControlRequest ParseControl(const config::Object& object) {
   };
   const config::Value action = object.At("action");
   const auto known = kActions.find(action.Text());
-  if (known == kActions.end()) {
-    action.Refuse("must be join, take, ask, withdraw, give, refuse, release or rename");
-  }
+  if (known == kActions.end()) action.Refuse("must be join, " + NamesIn(kActions));
   ControlRequest request;
   request.action = known->second;
   if (request.action == Action::kGive || request.action == Action::kRefuse) {
@@ -128,18 +127,24 @@ void LiveHub::Hear(const std::shared_ptr<LiveSession>& session, const std::strin
   const json id = message.value("id", json());
   const bool named = id.is_string() || id.is_number();
   const std::string type = Text(message, "type");
-  const auto refuse = [&](const char* reason) {
+  const auto refuse = [&](const std::string& reason) {
     session->Send(
         Ack(named ? id : json(), Text(message, "channel"), {CommandResult::Outcome::kMalformed, reason}));
   };
-  if (type != "command" && type != "control")
-    return refuse("the message is no JSON object of type command or control");
+  using Obey = void (LiveHub::*)(const std::shared_ptr<LiveSession>&, json);
+  static const std::map<std::string, Obey> kTypes = {{"command", &LiveHub::Command},
+                                                     {"control", &LiveHub::Control}};
+  const auto known = kTypes.find(type);
+  if (known == kTypes.end()) return refuse("the message is no JSON object of type " + NamesIn(kTypes));
   if (!named) return refuse("id: must be a text or a number");
-  if (type == "command") return Command(session, std::move(message));
-  session->Send(Ack(id, type, Control(session, message)));
+  (this->*known->second)(session, std::move(message));
 }
 
-CommandResult LiveHub::Control(const std::shared_ptr<LiveSession>& session, const json& message) {
+void LiveHub::Control(const std::shared_ptr<LiveSession>& session, json message) {
+  session->Send(Ack(message["id"], "control", Decide(session, message)));
+}
+
+CommandResult LiveHub::Decide(const std::shared_ptr<LiveSession>& session, const json& message) {
   try {
     const config::Object object(config::Value::FromJson(message, "control"),
                                 {"type", "id", "action", "name", "token", "page", "take", "person"});

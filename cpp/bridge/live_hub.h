@@ -36,7 +36,8 @@ class LiveHub {
 
  private:
   void Command(const std::shared_ptr<LiveSession>& session, nlohmann::json message);
-  CommandResult Control(const std::shared_ptr<LiveSession>& session, const nlohmann::json& message);
+  void Control(const std::shared_ptr<LiveSession>& session, nlohmann::json message);
+  CommandResult Decide(const std::shared_ptr<LiveSession>& session, const nlohmann::json& message);
   void Introduce(const std::shared_ptr<LiveSession>& session, const Introduction& introduction);
   void TellControl();
   LiveFrame ControlFrame(const LiveSession& session) const;

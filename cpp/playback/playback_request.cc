@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "bridge/names_in.h"
 #include "config/json_reader.h"
 #include "playback/player.h"
 
@@ -48,7 +49,7 @@ PlaybackRequest ParsePlaybackRequest(const nlohmann::json& message) {
   request.id = IdOf(message);
   const config::Value action = object.At("action");
   const auto known = kActions.find(action.Text());
-  if (known == kActions.end()) action.Refuse("must be play, pause, seek, step, speed or loop");
+  if (known == kActions.end()) action.Refuse("must be " + bridge::NamesIn(kActions));
   request.action = known->second;
   switch (request.action) {
     case Action::kSeek:

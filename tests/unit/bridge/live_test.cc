@@ -199,7 +199,7 @@ TEST(Live, LetsOneBrowserCommandAtATimeAndTellsAllWho) {
   EXPECT_EQ(bob.ReadText("ack")["reason"],
             "nobody answered CMD_LINK within 2 s: is fleet-simulator running?");
   EXPECT_EQ(ask(bob, R"("action":"dance")")["reason"],
-            "control: /action: must be join, take, ask, withdraw, give, refuse, release or rename");
+            "control: /action: must be join, ask, give, refuse, release, rename, take or withdraw");
   EXPECT_EQ(ask(bob, R"("action":"rename","name":"\u0007")")["accepted"], false);
 }
 
