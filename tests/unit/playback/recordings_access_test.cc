@@ -123,8 +123,8 @@ TEST_F(RecordingsAccess, WhoeverMayLookPlaysForHimselfAndNobodyCommandsThere) {
       const std::string command = R"({"type":"command","id":"c",)" + CommandJson(channel, body).substr(1);
       EXPECT_EQ(Ask(*browser, command)["accepted"], false) << command;
     }
-    for (const char* action : {"join", "take", "ask", "release", "rename", "withdraw"}) {
-      const json control{{"type", "control"}, {"id", "c"}, {"action", action}, {"name", "X"}};
+    for (const char* action : {"join", "take", "ask", "release", "withdraw", "play"}) {
+      const json control{{"type", "control"}, {"id", "c"}, {"action", action}};
       EXPECT_EQ(Ask(*browser, control.dump())["accepted"], false) << control;
     }
   }
