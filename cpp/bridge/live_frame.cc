@@ -62,6 +62,8 @@ std::shared_ptr<const std::string> Packed(const std::string& content, bool binar
   const auto size = static_cast<std::uint32_t>(content.size());
   std::memcpy(packed.data() + kSizeAt, &size, sizeof size);
   Deflate(binary ? Sorted(content) : content, packed);
+  // It may wait for long, and its size is what is counted then.
+  packed.shrink_to_fit();
   return std::make_shared<const std::string>(std::move(packed));
 }
 

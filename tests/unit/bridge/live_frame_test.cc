@@ -31,6 +31,12 @@ TEST(LiveFrame, OfALargeTextIsSmallerAndTheSameAgain) {
   EXPECT_FALSE(Unpacked(frame).binary);
 }
 
+TEST(LiveFrame, HoldsNoMoreThanItsSizeWhileItWaits) {
+  const LiveFrame frame = TextFrame(std::string(60'000, 'x'));
+  EXPECT_LT(frame.bytes->size(), 1000U);
+  EXPECT_LT(frame.bytes->capacity(), 2 * frame.bytes->size());
+}
+
 TEST(LiveFrame, OfColumnsOfAnyLengthIsTheSameAgain) {
   const unsigned seed = std::random_device{}();
   std::cout << "seed " << seed << "\n";
