@@ -34,6 +34,9 @@ constexpr seconds kResponseTime{60};
 // those waits for four others at most.
 constexpr seconds kAnswerTime{30};
 constexpr std::chrono::milliseconds kLookPeriod{250};
+// Between two accepted connections all others have their turn: one at a time, and a flood of connections
+// keeps a browser waiting for as many turns.
+constexpr int kAcceptedAtOnce = 16;
 constexpr std::uint32_t kMaxHeaderBytes = 16 * 1024;
 constexpr std::uint64_t kMaxBodyBytes = 1u << 20;
 
@@ -110,13 +113,11 @@ WebServer::WebServer(asio::io_context& context, const std::string& address, std:
       router_(options, backend, doorkeeper_, [this](const HttpHead& head) { return WhyNot(head); }),
       hub_(backend) {
   doorkeeper_.SetTell(backend.tell);
-  asio::co_spawn(context_, AcceptAll(), asio::detached);
+  for (int i = 0; i < kAcceptedAtOnce; ++i) asio::co_spawn(context_, AcceptAll(), asio::detached);
   asio::co_spawn(context_, LookAfterPeople(), asio::detached);
 }
 
 asio::awaitable<void> WebServer::AcceptAll() {
-  // Each connection holds a share of it.
-  const auto connections = std::make_shared<int>();
   for (;;) {
     auto [error, socket] = co_await acceptor_.async_accept(kAwait);
     if (error) {
@@ -125,12 +126,12 @@ asio::awaitable<void> WebServer::AcceptAll() {
       co_await pause.async_wait(kAwait);
       continue;
     }
-    if (connections.use_count() > kMaxConnections) {
+    if (connections_.use_count() > kMaxConnections) {
       if (idle_.empty()) continue;
       idle_.begin()->second->close();
       idle_.erase(idle_.begin());
     }
-    asio::co_spawn(context_, Serve(std::move(socket), connections), [](std::exception_ptr failure) {
+    asio::co_spawn(context_, Serve(std::move(socket), connections_), [](std::exception_ptr failure) {
       if (!failure) return;
       try {
         std::rethrow_exception(failure);

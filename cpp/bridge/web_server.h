@@ -52,7 +52,8 @@ class WebServer {
   std::shared_ptr<const Recordings> recordings_;  ///< null: none
   HttpRouter router_;
   LiveHub hub_;
-  std::vector<std::weak_ptr<LiveSession>> live_;  ///< all on a WebSocket
+  std::vector<std::weak_ptr<LiveSession>> live_;                 ///< all on a WebSocket
+  std::shared_ptr<void> connections_ = std::make_shared<int>();  ///< each connection holds a share of it
   /// Connections that wait for the other side, the longest first: they give way to newcomers.
   std::map<std::int64_t, boost::beast::tcp_stream*> idle_;
   std::int64_t last_idle_ = 0;
