@@ -32,6 +32,8 @@ void Check(const LinkTimes& times) {
   require(times.lost_us > times.late_us, "lost_us: must be above late_us");
   require(times.unknown_us > 0, "unknown_us: must be above 0");
   require(times.return_us > 0, "return_us: must be above 0");
+  require(times.listen_us > 0 && times.listen_us < times.lost_us,
+          "listen_us: must be above 0, below lost_us");
 }
 
 LinkDirection::LinkDirection(const LinkTimes& times) : times_(times) { skein::Check(times_); }
@@ -45,7 +47,7 @@ void LinkDirection::Prove(std::int64_t now) {
 void LinkDirection::Check(std::int64_t age_us) {
   switch (state_) {
     case LinkState::kUnknown:
-      if (age_us >= times_.unknown_us) state_ = LinkState::kLost;
+      if (age_us >= (recalled_ ? times_.lost_us : times_.unknown_us)) state_ = LinkState::kLost;
       break;
     case LinkState::kUp:
     case LinkState::kLate:
@@ -57,6 +59,7 @@ void LinkDirection::Check(std::int64_t age_us) {
 }
 
 void LinkDirection::Forget() {
+  recalled_ = false;
   if (state_ != LinkState::kLost) state_ = LinkState::kUnknown;
 }
 
@@ -116,9 +119,26 @@ void LinkWatch::Command(std::int64_t now, std::int64_t session_id) {
 }
 
 void LinkWatch::Check(std::int64_t now) {
-  downlink_.Check(now - fresh_at_.value_or(since_));
+  downlink_.Check(now - (downlink() == LinkState::kUnknown ? since_ : fresh_at_.value_or(since_)));
   if (now - last_command_ >= times_.lost_us) uplink_.Forget();
   uplink_.Check(Disobeyed());
+}
+
+std::optional<LinkWatch::Memory> LinkWatch::Remember(std::int64_t now) const {
+  if (!fresh_at_) return std::nullopt;
+  return Memory{*fresh_at_, session_id_, unobeyed_since_.value_or(now)};
+}
+
+void LinkWatch::Recall(std::int64_t now, const Memory& memory) {
+  const std::int64_t earliest = now + times_.listen_us - times_.lost_us;
+  fresh_at_ = memory.fresh_at;
+  since_ = std::max(memory.fresh_at, earliest);
+  downlink_.Recall();
+  if (memory.session_id == 0) return;
+  session_id_ = memory.session_id;
+  unobeyed_since_ = std::max(memory.unobeyed_since, earliest);
+  last_command_ = now;
+  uplink_.Recall();
 }
 
 std::optional<std::int64_t> LinkWatch::downlink_age_us(std::int64_t now) const {

@@ -17,6 +17,9 @@ struct LinkTimes {
   std::int64_t lost_us = 4'000'000;     ///< > late_us
   std::int64_t unknown_us = 5'000'000;  ///< a link that has never proved itself is lost after this, > 0
   std::int64_t return_us = 3'000'000;   ///< of proofs that a lost link needs, > 0
+  /// A watch that is started anew listens so long before it finds a loss: a link in order proves itself in
+  /// that time, also when telemetry comes at 1 Hz, and with it a loss is found in time. > 0, < lost_us
+  std::int64_t listen_us = 2'500'000;
 };
 /// Throws std::invalid_argument naming the field and the reason.
 void Check(const LinkTimes& times);
@@ -29,6 +32,8 @@ void Check(const LinkTimes& times);
 ///   kLost    --(3 s of proofs, no two of them 2 s apart)--> kUp
 ///   kUp, kLate --(Forget: it is not used)--> kUnknown
 ///
+/// One that had proved itself before its watch was started anew (Recall) is kUnknown, and lost after 4 s.
+///
 /// Not thread-safe. Has no clock: the caller says what time it is, which never goes back.
 class LinkDirection {
  public:
@@ -39,11 +44,14 @@ class LinkDirection {
   /// To be called often. @param age_us for how long it has failed to prove itself while it should have.
   void Check(std::int64_t age_us);
   void Forget();
+  /// It had proved itself before. Only at the start.
+  void Recall() { recalled_ = true; }
 
   LinkState state() const { return state_; }
 
  private:
   LinkTimes times_;
+  bool recalled_ = false;
   LinkState state_ = LinkState::kUnknown;
   std::int64_t run_start_ = 0;  ///< of the proofs that followed each other closely
   std::optional<std::int64_t> last_proof_;
@@ -81,6 +89,17 @@ class LinkWatch {
   /// To be called often: states change with time alone.
   void Check(std::int64_t now);
 
+  /// What a watch that is started anew must know to find a loss as early as this one would have.
+  struct Memory {
+    std::int64_t fresh_at = 0;        ///< last fresh telemetry
+    std::int64_t session_id = 0;      ///< the commanding one, 0: none
+    std::int64_t unobeyed_since = 0;  ///< until then it had obeyed
+  };
+  /// None: there was no fresh telemetry yet.
+  std::optional<Memory> Remember(std::int64_t now) const;
+  /// Only at the start. Nobody has listened meanwhile: lost is a link listen_us from now at the earliest.
+  void Recall(std::int64_t now, const Memory& memory);
+
   LinkState downlink() const { return downlink_.state(); }
   LinkState uplink() const { return uplink_.state(); }
   /// Either direction.
@@ -103,7 +122,7 @@ class LinkWatch {
   void HearObedience(std::int64_t now, const Telemetry& telemetry);
 
   LinkTimes times_;
-  std::int64_t since_;  ///< when the watch began
+  std::int64_t since_;  ///< when the watch began; from then a downlink is unknown
   LinkDirection downlink_;
   LinkDirection uplink_;
 

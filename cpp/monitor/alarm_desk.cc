@@ -135,6 +135,7 @@ std::string AlarmDesk::Encoded() const {
   const std::vector<alarm_list_t> chunks = bus::Split(list);
   bytes.Add(static_cast<std::int64_t>(chunks.size()));
   for (const alarm_list_t& chunk : chunks) bytes.Add(chunk);
+  bytes.Add(encode_more_ ? encode_more_() : "");
   return bytes.Take();
 }
 
@@ -160,6 +161,7 @@ void AlarmDesk::Restore() {
     }
   }
   if (std::abs(Now() - *saved) > kOldestState) return;
+  also_kept_ = reader.Text().value_or("");
   for (const Alarm& alarm : open) {
     if (!alarm.ended_utime) unconfirmed_.insert(alarm.condition.key);
   }

@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <set>
 #include <skein/alarm_command_t.hpp>
 #include <string>
+#include <utility>
 
 #include "bus/bus.h"
 #include "bus/command_inbox.h"
@@ -31,6 +33,11 @@ class AlarmDesk {
   /// Nothing can be heard that would confirm them or not: they have their time from now on.
   void ConfirmLater() { confirm_by_ = Now() + kConfirm; }
 
+  /// Something else that must not be lost is kept in the same file. @param encode is asked at each saving.
+  void AlsoKeep(std::function<std::string()> encode) { encode_more_ = std::move(encode); }
+  /// What it was before a restart; empty: there was nothing, or it is too old.
+  const std::string& also_kept() const { return also_kept_; }
+
   /// Twice the time in which a lost link is found.
   static constexpr bus::Utime kConfirm = 10 * bus::kSecond;
   /// An older state is of another flight.
@@ -56,6 +63,8 @@ class AlarmDesk {
   bus::StateFile state_file_;
   bus::CommandInbox inbox_;
   AlarmRegister alarms_;
+  std::function<std::string()> encode_more_;
+  std::string also_kept_;
   std::int64_t sequence_ = 0;
   std::int64_t sent_revision_ = 0;
   std::set<std::string> unconfirmed_;

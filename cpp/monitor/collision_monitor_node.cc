@@ -70,12 +70,14 @@ CollisionMonitorNode::CollisionMonitorNode(bus::Bus& bus, const CollisionMonitor
     : bus_(bus),
       events_(bus),
       alarms_(bus, events_, options.state_file),
-      link_alarms_(alarms_, bus.executor().Now()),
+      link_memory_(alarms_.also_kept(), bus.executor().Now()),
+      link_alarms_(alarms_, bus.executor().Now(), !link_memory_.empty()),
       silence_(bus, alarms_),
       clocks_(bus, alarms_),
       options_((Check(options), options)),
       membership_(bus.executor().Now(), options.strangers, options.formations),
       levels_from_(bus.executor().Now() + kSettling) {
+  alarms_.AlsoKeep([this] { return link_memory_.Encode(bus_.executor().Now(), fleet_session_id_, uavs_); });
   bus::SubscribeChunks<fleet_roster_t>(
       bus, bus::channel::kFleetRoster,
       [this](const fleet_roster_t& roster, int missing) { HearRoster(roster, missing); }, &events_);
@@ -97,12 +99,14 @@ void CollisionMonitorNode::StartFlight(const fleet_roster_t& roster) {
   if (!again && roster.scenario == options_.scenario) return;
   // At the start an operator may well have meant a scenario that the fleet does not know by name.
   if (!TakeScenario(roster.scenario, again) && !again) return;
-  // Nothing of what was in the air before is there any more.
   const Utime now = bus_.executor().Now();
-  for (const auto& [id, uav] : uavs_) link_alarms_.Forget(uav);
-  for (const PairAlert& pair : levels_.active()) alarms_.End(AlarmKey(pair));
-  uavs_.clear();
-  levels_ = AlertLevels();
+  if (again) {
+    // Nothing of what was in the air before is there any more.
+    for (const auto& [id, uav] : uavs_) link_alarms_.Forget(uav);
+    for (const PairAlert& pair : levels_.active()) alarms_.End(AlarmKey(pair));
+    uavs_.clear();
+    levels_ = AlertLevels();
+  }
   levels_from_ = now + kSettling;
   membership_ = Membership(now, options_.strangers, options_.formations);
 }
@@ -126,7 +130,6 @@ bool CollisionMonitorNode::TakeScenario(const std::string& name, bool again) {
 
 void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_chunks) {
   if (roster.start_utime != start_utime_) StartFlight(roster);
-  const Utime now = bus_.executor().Now();
   std::map<int, const vehicle_info_t*> listed;
   for (const vehicle_info_t& info : roster.vehicles) listed[info.id] = &info;
   // Who has left is forgotten; should it be heard on, it comes back as one that is not in the roster.
@@ -138,8 +141,7 @@ void CollisionMonitorNode::HearRoster(const fleet_roster_t& roster, int missing_
     });
   }
   for (const auto& [id, info] : listed) {
-    const auto [uav, is_new] = uavs_.try_emplace(id, id, info->callsign, true, now, options_.link_times);
-    if (!is_new) uav->second.Enrol(info->callsign);
+    Watch(id, info->callsign, true, roster.session_id).Enrol(info->callsign);
   }
 }
 
@@ -154,15 +156,21 @@ void CollisionMonitorNode::HearState(const fleet_state_t& state) {
   link_alarms_.HearFleet(now);
   std::vector<Notice> notices;
   for (const vehicle_state_t& vehicle : state.vehicles) {
-    const auto uav = uavs_
-                         .try_emplace(vehicle.id, vehicle.id, fmt::format("UAV #{}", vehicle.id), false, now,
-                                      options_.link_times)
-                         .first;
-    const auto notice = uav->second.Hear(now, {vehicle.utime, bus::ToVehicleState(vehicle),
-                                               vehicle.command_session_id, vehicle.command_sequence});
+    WatchedUav& uav = Watch(vehicle.id, fmt::format("UAV #{}", vehicle.id), false, state.session_id);
+    const auto notice = uav.Hear(now, {vehicle.utime, bus::ToVehicleState(vehicle),
+                                       vehicle.command_session_id, vehicle.command_sequence});
     if (notice) notices.push_back(*notice);
   }
   Tell(std::move(notices));
+}
+
+WatchedUav& CollisionMonitorNode::Watch(int id, const std::string& callsign, bool in_roster,
+                                        std::int64_t session_id) {
+  const Utime now = bus_.executor().Now();
+  const auto [uav, is_new] = uavs_.try_emplace(id, id, callsign, in_roster, now, options_.link_times);
+  if (!is_new) return uav->second;
+  if (const auto memory = link_memory_.Take(session_id, id)) uav->second.Recall(now, *memory);
+  return uav->second;
 }
 
 void CollisionMonitorNode::HearCommands(const fleet_command_t& commands) {

@@ -17,6 +17,7 @@
 #include "monitor/alarm_desk.h"
 #include "monitor/clock_watch.h"
 #include "monitor/link_alarms.h"
+#include "monitor/link_memory.h"
 #include "monitor/membership.h"
 #include "monitor/silence_watch.h"
 #include "monitor/watched_uav.h"
@@ -31,7 +32,8 @@ struct CollisionMonitorOptions {
   /// The options of a fleet that has started anew, by the scenario's name in its roster; none: not found.
   /// Empty: these are for every flight.
   std::function<std::optional<CollisionMonitorOptions>(const std::string& name)> find_options{};
-  /// Where the alarms are kept, so that a monitor that died goes on with them; empty: nowhere.
+  /// Where the alarms are kept, and when each UAV was last heard, so that a monitor that died goes on with
+  /// them; empty: nowhere.
   std::filesystem::path state_file{};
   LinkTimes link_times;
   UncertaintyGrowth uncertainty;
@@ -54,6 +56,8 @@ class CollisionMonitorNode {
   void StartFlight(const fleet_roster_t& roster);
   bool TakeScenario(const std::string& name, bool again);
   void HearState(const fleet_state_t& state);
+  /// Begins to watch it if it is not watched yet. @param session_id of the message that names it.
+  WatchedUav& Watch(int id, const std::string& callsign, bool in_roster, std::int64_t session_id);
   void HearCommands(const fleet_command_t& commands);
 
   void CheckLinks();
@@ -72,6 +76,7 @@ class CollisionMonitorNode {
   bus::Bus& bus_;
   bus::Events events_;
   AlarmDesk alarms_;
+  LinkMemory link_memory_;
   LinkAlarms link_alarms_;
   SilenceWatch silence_;
   ClockWatch clocks_;

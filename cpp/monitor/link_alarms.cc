@@ -13,7 +13,8 @@ constexpr const char* kFleetSilent = "fleet_silent";
 
 }  // namespace
 
-LinkAlarms::LinkAlarms(AlarmDesk& alarms, bus::Utime now) : alarms_(alarms) {
+LinkAlarms::LinkAlarms(AlarmDesk& alarms, bus::Utime now, bool heard_before) : alarms_(alarms) {
+  if (heard_before) heard_ = now;
   if (alarms.unconfirmed().contains(kFleetSilent)) heard_ = now - kSilentAfter;
 }
 

@@ -19,8 +19,9 @@ namespace skein::monitor {
 /// each by itself.
 class LinkAlarms {
  public:
-  /// A fleet that was silent before a restart is so until it is heard.
-  LinkAlarms(AlarmDesk& alarms, bus::Utime now);
+  /// A fleet that was silent before a restart is so until it is heard. @param heard_before whether there was
+  /// one: then its silence is noticed, too, if it is never heard by this process.
+  LinkAlarms(AlarmDesk& alarms, bus::Utime now, bool heard_before);
 
   /// FLEET_STATE has come.
   void HearFleet(bus::Utime now);

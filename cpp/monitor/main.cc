@@ -20,8 +20,9 @@ int main(int argc, char** argv) {
       .add_option("--rate-hz", rate_hz, "Sweeps for collisions per second")
       ->check(CLI::Range(1, 10))
       ->capture_default_str();
-  node.app().add_option("--state-file", state_file,
-                        "Keeps the alarms here, to go on with after a restart within a minute");
+  node.app().add_option(
+      "--state-file", state_file,
+      "Keeps the alarms and when each UAV was heard here, to go on with after a restart within a minute");
   node.OnlyOne([&] {
     if (!scenario.empty()) {
       const auto file = config::FindScenario(scenario);

@@ -60,9 +60,10 @@ Notice WatchedUav::Tell(std::int8_t severity, std::string code, std::string text
 }
 
 std::string WatchedUav::DownlinkFault(bus::Utime now) const {
-  if (!heard_) return "never heard";
+  if (!heard_ && !watch_.downlink_age_us(now)) return "never heard";
   const double age_s = bus::ToSeconds(watch_.downlink_age_us(now).value_or(watch_.last_age_us(now)));
-  if (now - *heard_ < kStillTalking) return fmt::format("downlink repeats its state of {:.1f} s ago", age_s);
+  if (heard_ && now - *heard_ < kStillTalking)
+    return fmt::format("downlink repeats its state of {:.1f} s ago", age_s);
   return fmt::format("nothing heard for {:.1f} s", age_s);
 }
 

@@ -34,6 +34,8 @@ class WatchedUav {
 
   /// Returns a notice when its clock has jumped, or when it is where it cannot have flown to.
   std::optional<Notice> Hear(bus::Utime now, const Telemetry& telemetry);
+  /// Goes on with the watch of before a restart. Only at the start.
+  void Recall(bus::Utime now, const LinkWatch::Memory& memory) { watch_.Recall(now, memory); }
   /// It may be anywhere when it is heard next.
   void ForgetPlace() { last_.reset(); }
   void HearCommand(bus::Utime now, std::int64_t session_id) { watch_.Command(now, session_id); }

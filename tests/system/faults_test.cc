@@ -8,8 +8,10 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <skein/alarm_list_t.hpp>
 #include <skein/event_t.hpp>
@@ -136,6 +138,54 @@ TEST_F(FaultsTest, AKilledMonitorKeepsWhatWasAcknowledged) {
     return alarm.state != alarm_t::OVER && !as_before(alarm);
   };
   EXPECT_FALSE(HearsAlarm("link:3", is_another, 13s));
+}
+
+TEST_F(FaultsTest, AMonitorKilledRightAfterACutTellsTheLossWithinFiveSeconds) {
+  StartAll();
+  double slowest_s = 0;
+  for (int round = 0; round < 3; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    // A monitor that has just begun has a link in order to hear first.
+    ASSERT_TRUE(Hears<link_status_t>(
+        url_, bus::channel::kLinkStatus,
+        [](const link_status_t& status) {
+          return std::any_of(status.links.begin(), status.links.end(), [](const vehicle_link_t& link) {
+            return link.id == 3 && link.downlink == link_status_t::LINK_UP &&
+                   link.uplink == link_status_t::LINK_UP;
+          });
+        },
+        20s));
+    std::optional<Process> cut;
+    bus::Utime last_heard = 0;
+    ASSERT_TRUE(Hears<fleet_state_t>(
+        url_, bus::channel::kFleetState,
+        [&](const fleet_state_t& state) {
+          if (!cut) {
+            cut.emplace(std::vector<std::string>{Program("skein"), "--lcm-url", url_, "link", "cut", "3",
+                                                 "--for", "8"},
+                        environment_);
+          }
+          const bool heard = std::any_of(state.vehicles.begin(), state.vehicles.end(),
+                                         [](const vehicle_state_t& uav) { return uav.id == 3; });
+          if (heard) last_heard = state.utime;
+          return !heard;
+        },
+        10s));
+    Restart("collision-monitor");
+    bus::Utime told = 0;
+    ASSERT_TRUE(Hears<event_t>(
+        url_, bus::channel::kEvent,
+        [&](const event_t& event) {
+          told = event.utime;
+          return event.code == "link_lost" && event.vehicle_id == 3;
+        },
+        10s));
+    EXPECT_LE(bus::ToSeconds(told - last_heard), 5);
+    EXPECT_GE(bus::ToSeconds(told - last_heard), 3) << "that was a guess";
+    slowest_s = std::max(slowest_s, bus::ToSeconds(told - last_heard));
+    EXPECT_EQ(cut->WaitForEnd(10s), 0) << cut->output();
+  }
+  std::cout << "told " << slowest_s << " s after it was last heard, at most\n";
 }
 
 TEST_F(FaultsTest, AControllerThatWasStoppedForTenSecondsGoesOn) {

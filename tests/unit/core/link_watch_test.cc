@@ -33,6 +33,9 @@ TEST(LinkTimes, RefuseWhatMakesNoSense) {
   times.lost_us = times.late_us;
   EXPECT_THROW(Check(times), std::invalid_argument);
   EXPECT_THROW(LinkDirection{times}, std::invalid_argument);
+  times = {};
+  times.listen_us = times.lost_us;
+  EXPECT_THROW(Check(times), std::invalid_argument);
 }
 
 TEST(LinkDirection, GoesFromUpToLateToLost) {

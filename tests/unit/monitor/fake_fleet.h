@@ -49,8 +49,10 @@ class FakeFleet {
   double clock_ahead_s = 0;    ///< of the monitor's
   bool commands = true;
   bool telemetry = true;
+  bool roster = true;
 
   static constexpr std::int64_t kSession = 1;
+  std::int64_t session = kSession;  ///< of FLEET_STATE
 
   /// Adds a UAV that flies along a course.
   FakeUav& Add(int id, double east_m, double north_m, double up_m, double speed_m_s = 50,
@@ -76,7 +78,7 @@ class FakeFleet {
     if (telemetry) {
       fleet_state_t states;
       states.utime = now;
-      states.session_id = kSession;
+      states.session_id = session;
       states.tick = ++tick_;
       for (auto& [id, uav] : uavs) {
         if (!uav.downlink) continue;
@@ -100,7 +102,7 @@ class FakeFleet {
     fleet_command_t command;
     command.utime = now;
     command.session_id = 9;
-    command.to_session_id = kSession;
+    command.to_session_id = session;
     command.request_id = command.state_tick = tick_;
     for (auto& [id, uav] : uavs) {
       vehicle_command_t& one = command.commands.emplace_back();
@@ -113,16 +115,16 @@ class FakeFleet {
   }
 
   void Repeat(bus::Utime now) {
-    fleet_roster_t roster;
-    roster.utime = now;
-    roster.session_id = kSession;
-    roster.scenario = scenario;
-    roster.start_utime = start_utime == 0 ? start_ : start_utime;
+    fleet_roster_t listed;
+    listed.utime = now;
+    listed.session_id = session;
+    listed.scenario = scenario;
+    listed.start_utime = start_utime == 0 ? start_ : start_utime;
     for (const auto& [id, uav] : uavs) {
       if (uav.in_roster)
-        roster.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel{}, true));
+        listed.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel{}, true));
     }
-    bus::PublishChunks(bus_, bus::channel::kFleetRoster, roster);
+    if (roster) bus::PublishChunks(bus_, bus::channel::kFleetRoster, listed);
     if (!commands) return;
     for (const auto& [id, members] : formations) {
       formation_t formation;
