@@ -6,6 +6,8 @@ namespace {
 // A source that was silent for longer has been halted or set: it must show three stamps.
 constexpr Utime kLongestPause = 10 * kSecond;
 constexpr int kStampsNeeded = 3;
+// No network that Skein can fly over brings anything later.
+constexpr Utime kLatest = 2 * kSecond;
 
 }  // namespace
 
@@ -29,8 +31,13 @@ bool SetOrder::StartsAnew(const SetStamp& stamp) const {
          stamp.utime > current_.utime;
 }
 
+bool SetOrder::IsLate(const SetStamp& stamp) const {
+  const Utime most = stamp.session_id == current_.session_id ? kLongestPause : 0;
+  return stamp.utime >= current_.utime - kLatest && stamp.utime <= current_.utime + most;
+}
+
 SetOrder::Verdict SetOrder::Judge(const SetStamp& stamp) {
-  Verdict verdict = Verdict::kOld;
+  Verdict verdict = Verdict::kFalse;
   if (started_ && stamp == current_) {
     verdict = Verdict::kSame;
   } else if (!started_ || stamp.session_id > current_.session_id || StartsAnew(stamp)) {
@@ -40,7 +47,7 @@ SetOrder::Verdict SetOrder::Judge(const SetStamp& stamp) {
   } else if (ThirdInARow(stamp)) {
     verdict = Verdict::kTakenAgain;
   } else {
-    return Verdict::kOld;
+    return IsLate(stamp) ? Verdict::kLate : Verdict::kFalse;
   }
   started_ = true;
   current_ = stamp;

@@ -17,9 +17,9 @@ struct SetStamp {
 
 /// Decides in which order the sets of one source are taken. A later session replaces an earlier one at once,
 /// and so does a later set 0: a type without a session shows by it that its sender was started anew. Within a
-/// session time and set number must rise. What does not fit is old, until three sets in a row come from the
-/// same other source with rising stamps and nothing from the present one: then its clock was set, or it was
-/// started anew with an earlier clock, and it is taken again.
+/// session time and set number must rise. What does not fit is late or false, until three sets in a row come
+/// from the same other source with rising stamps and nothing from the present one: then its clock was set, or
+/// it was started anew with an earlier clock, and it is taken again.
 class SetOrder {
  public:
   enum class Verdict {
@@ -27,7 +27,8 @@ class SetOrder {
     kNext,        ///< a later one
     kNewSource,   ///< the first one of a later session, of a later start, or of all
     kTakenAgain,  ///< time has jumped, and this is the third rising stamp
-    kOld,         ///< to be ignored
+    kLate,        ///< to be ignored: networks double and overtake, and a source begins anew unheard
+    kFalse,       ///< to be ignored: of an earlier session, or of a time that cannot be
   };
 
   Verdict Judge(const SetStamp& stamp);
@@ -39,6 +40,7 @@ class SetOrder {
   bool FitsCurrent(const SetStamp& stamp) const;
   bool StartsAnew(const SetStamp& stamp) const;
   bool ThirdInARow(const SetStamp& stamp);
+  bool IsLate(const SetStamp& stamp) const;
 
   bool started_ = false;
   SetStamp current_;

@@ -14,6 +14,8 @@
 #include "bus/chunk_order.h"
 #include "bus/chunk_traits.h"
 #include "bus/events.h"
+#include "bus/refusals.h"
+#include "bus/validate.h"
 
 namespace skein::bus {
 
@@ -122,7 +124,7 @@ class ChunkAssembler {
     std::int64_t gaps =
         0;  ///< chunks and sets that are now known to be missing (a missing set counts as its chunks)
     bool time_jumped = false;
-    bool too_many = false;  ///< items in the set: it is given up
+    const char* refused = nullptr;  ///< why the message, or the whole set, was
   };
   Found Add(const Message& message);
 
@@ -138,8 +140,7 @@ class ChunkAssembler {
     bool delivered = true;
   };
 
-  /// @return how many chunks of it are lost.
-  int Deliver(Stream& stream);
+  void Deliver(Stream& stream, Found& found);
 
   // More streams than this are noise.
   static constexpr std::size_t kMostStreams = 10'000;
@@ -152,17 +153,28 @@ class ChunkAssembler {
 
 template <typename Message>
 typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Message& message) {
-  if (streams_.size() >= kMostStreams && !streams_.contains(Traits::Stream(message))) return {};
+  Found found;
+  if (streams_.size() >= kMostStreams && !streams_.contains(Traits::Stream(message))) {
+    found.refused = "it is of one more formation than there can be";
+    return found;
+  }
   const auto [entry, is_new] = streams_.try_emplace(Traits::Stream(message));
   Stream& stream = entry->second;
   const std::int64_t last_set = stream.order.current().set;
   const auto verdict = stream.order.Judge({Traits::Session(message), message.utime, Traits::Set(message)});
-  if (verdict == SetOrder::Verdict::kOld) return {};
-
-  Found found;
+  if (verdict == SetOrder::Verdict::kLate) return found;
+  if (verdict == SetOrder::Verdict::kFalse) {
+    found.refused = "its time does not go on from that of the others, or it is of an earlier run";
+    return found;
+  }
   found.time_jumped = verdict == SetOrder::Verdict::kTakenAgain;
   if (verdict != SetOrder::Verdict::kSame) {
-    if (!stream.delivered) found.gaps += Deliver(stream);
+    if (!stream.delivered) {
+      const auto missing = stream.chunk_count - static_cast<int>(stream.chunks.size());
+      const auto before = std::distance(stream.chunks.begin(), stream.chunks.lower_bound(stream.joined_at));
+      found.gaps += missing - (stream.joined_at - static_cast<int>(before));
+      Deliver(stream, found);
+    }
     if (Traits::kConsecutive && verdict == SetOrder::Verdict::kNext) {
       found.gaps += (Traits::Set(message) - last_set - 1) * message.chunk_count;
     }
@@ -172,7 +184,11 @@ typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Messa
     stream.joined_at = is_new ? message.chunk : 0;
     stream.delivered = false;
   }
-  if (stream.delivered || message.chunk_count != stream.chunk_count) return found;
+  if (message.chunk_count != stream.chunk_count) {
+    found.refused = "it contradicts its set";
+    return found;
+  }
+  if (stream.delivered) return found;
   if (stream.chunk_count == 1) {  // nothing to put together: no copy
     stream.delivered = true;
     handler_(message, 0);
@@ -182,18 +198,16 @@ typename ChunkAssembler<Message>::Found ChunkAssembler<Message>::Add(const Messa
   if (stream.items > kMostItems) {
     stream.chunks.clear();
     stream.delivered = true;
-    found.too_many = true;
+    found.refused = "its set has too many items";
     return found;
   }
-  if (static_cast<int>(stream.chunks.size()) == stream.chunk_count) Deliver(stream);
+  if (static_cast<int>(stream.chunks.size()) == stream.chunk_count) Deliver(stream, found);
   return found;
 }
 
 template <typename Message>
-int ChunkAssembler<Message>::Deliver(Stream& stream) {
+void ChunkAssembler<Message>::Deliver(Stream& stream, Found& found) {
   const int missing = stream.chunk_count - static_cast<int>(stream.chunks.size());
-  const auto before = std::distance(stream.chunks.begin(), stream.chunks.lower_bound(stream.joined_at));
-  const int lost = missing - (stream.joined_at - static_cast<int>(before));
   Message whole = stream.chunks.begin()->second;
   auto& items = Traits::Items(whole);
   for (auto chunk = std::next(stream.chunks.begin()); chunk != stream.chunks.end(); ++chunk) {
@@ -205,22 +219,28 @@ int ChunkAssembler<Message>::Deliver(Stream& stream) {
   Traits::SetCount(whole, static_cast<int>(items.size()));
   stream.chunks.clear();
   stream.delivered = true;
+  // Each chunk is valid, but a UAV may be in two of them.
+  if (!Valid(whole)) {
+    found.refused = "its chunks contradict each other";
+    return;
+  }
   handler_(whole, missing);
-  return lost;
 }
 
 /// Subscribes to a channel whose messages come in chunks. Gaps go to the Bus' statistics; a source whose time
-/// has jumped is told as the event "time_jumped" when `events` is given.
+/// has jumped is told as the event "time_jumped" when `events` is given, again after 10 s at the earliest.
 template <typename Message>
 void SubscribeChunks(Bus& bus, const std::string& channel, typename ChunkAssembler<Message>::Handler handler,
                      Events* events = nullptr) {
   bus.Subscribe<Message>(
-      channel, [&bus, channel, events,
+      channel, [&bus, channel, events, told = Utime{0},
                 assembler = ChunkAssembler<Message>(std::move(handler))](const Message& message) mutable {
         const auto found = assembler.Add(message);
         bus.CountGaps(found.gaps);
-        if (found.too_many) bus.CountRefusal(channel);
-        if (found.time_jumped && events) {
+        if (found.refused) Refuse(bus, channel, found.refused);
+        const Utime now = bus.executor().Now();
+        if (found.time_jumped && events && (told == 0 || now - told >= 10 * kSecond)) {
+          told = now;
           events->Tell(event_t::ADVISORY, "time_jumped",
                        "the time stamps of " + channel + " have jumped; they are taken again");
         }

@@ -14,6 +14,7 @@
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
+#include "bus/refusals.h"
 
 namespace skein::monitor {
 namespace {
@@ -157,9 +158,10 @@ void CollisionMonitorNode::HearState(const fleet_state_t& state) {
   std::vector<Notice> notices;
   for (const vehicle_state_t& vehicle : state.vehicles) {
     WatchedUav& uav = Watch(vehicle.id, fmt::format("UAV #{}", vehicle.id), false, state.session_id);
-    const auto notice = uav.Hear(now, {vehicle.utime, bus::ToVehicleState(vehicle),
-                                       vehicle.command_session_id, vehicle.command_sequence});
-    if (notice) notices.push_back(*notice);
+    const auto heard = uav.Hear(now, {vehicle.utime, bus::ToVehicleState(vehicle), vehicle.command_session_id,
+                                      vehicle.command_sequence});
+    if (!heard.credible) bus::CountFlagged(bus_);
+    if (heard.notice) notices.push_back(*heard.notice);
   }
   Tell(std::move(notices));
 }

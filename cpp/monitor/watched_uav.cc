@@ -17,7 +17,16 @@ constexpr bus::Utime kObeysAgain = bus::kSecond;
 // A navigation filter that corrects itself, and wind, are no leap.
 constexpr double kLeap_m = 100;
 constexpr double kFasterThanItSays = 2;
-constexpr bus::Utime kLeapAgain = 10 * bus::kSecond;
+// Later telemetry comes through no network that Skein can fly over; of what was held back it may all come at
+// once (fleet-simulator lets a link hold it back for a minute).
+constexpr bus::Utime kLatest = 2 * bus::kSecond;
+constexpr bus::Utime kLongestDelay = 60 * bus::kSecond;
+constexpr bus::Utime kTellAgain = 10 * bus::kSecond;
+
+double Way_m(const Telemetry& from, const Telemetry& to) {
+  return std::hypot(to.state.east_m - from.state.east_m, to.state.north_m - from.state.north_m,
+                    to.state.up_m - from.state.up_m);
+}
 
 }  // namespace
 
@@ -29,30 +38,49 @@ void WatchedUav::Enrol(const std::string& callsign) {
   in_roster_ = true;
 }
 
-std::optional<Notice> WatchedUav::Hear(bus::Utime now, const Telemetry& telemetry) {
+WatchedUav::Heard WatchedUav::Hear(bus::Utime now, const Telemetry& telemetry) {
+  watch_.Hear(now, telemetry);
+  const bus::Utime elapsed = now - heard_.value_or(now);
   heard_ = now;
-  std::optional<Notice> leap = Leap(now, telemetry);
-  if (watch_.Hear(now, telemetry) != LinkWatch::Heard::kClockJumped) return leap;
-  return Tell(event_t::ADVISORY, "time_jumped",
-              fmt::format("the clock of {} has jumped; it is taken again", callsign_));
+  const std::optional<Telemetry> before = std::exchange(last_, telemetry);
+  if (!before) return {};
+  const auto is_news = [now](bus::Utime& told) {
+    if (told != 0 && now - told < kTellAgain) return false;
+    told = now;
+    return true;
+  };
+  if (TimeHasJumped(elapsed, *before, telemetry)) {
+    if (!is_news(jump_told_)) return {false, std::nullopt};
+    return {false, Tell(event_t::ADVISORY, "time_jumped",
+                        fmt::format("the clock of {} has jumped by {:.0f} s, or somebody else sends as {}",
+                                    callsign_, bus::ToSeconds(telemetry.utime - before->utime - elapsed),
+                                    callsign_))};
+  }
+  if (HasLeapt(*before, telemetry)) {
+    if (!is_news(leap_told_)) return {false, std::nullopt};
+    return {false, TellLeap(*before, telemetry)};
+  }
+  return {};
 }
 
-std::optional<Notice> WatchedUav::Leap(bus::Utime now, const Telemetry& telemetry) {
-  const std::optional<Telemetry> before = std::exchange(last_, telemetry);
-  if (!before || telemetry.utime < before->utime) return std::nullopt;
-  const VehicleState& from = before->state;
-  const VehicleState& to = telemetry.state;
-  const double leap_m = std::hypot(to.east_m - from.east_m, to.north_m - from.north_m, to.up_m - from.up_m);
-  const double dt_s = bus::ToSeconds(telemetry.utime - before->utime);
-  if (leap_m <= kLeap_m + kFasterThanItSays * std::max(from.speed_m_s, to.speed_m_s) * dt_s)
-    return std::nullopt;
-  if (leap_told_ != 0 && now - leap_told_ < kLeapAgain) return std::nullopt;
-  leap_told_ = now;
-  return Tell(event_t::CAUTION, "position_leapt",
-              fmt::format("{} is {:.0f} m from where it was {:.2f} s before: its navigation may be wrong, or "
-                          "somebody else sends "
-                          "as {}",
-                          callsign_, leap_m, dt_s, callsign_));
+bool WatchedUav::TimeHasJumped(bus::Utime elapsed, const Telemetry& before, const Telemetry& after) {
+  const bus::Utime by = after.utime - before.utime;
+  return by < -kLatest || by > elapsed + kLongestDelay;
+}
+
+bool WatchedUav::HasLeapt(const Telemetry& before, const Telemetry& after) {
+  if (after.utime < before.utime) return false;
+  const double speed_m_s = std::max(before.state.speed_m_s, after.state.speed_m_s);
+  const double dt_s = bus::ToSeconds(after.utime - before.utime);
+  return Way_m(before, after) > kLeap_m + kFasterThanItSays * speed_m_s * dt_s;
+}
+
+Notice WatchedUav::TellLeap(const Telemetry& before, const Telemetry& after) const {
+  return Tell(
+      event_t::CAUTION, "position_leapt",
+      fmt::format("{} is {:.0f} m from where it was {:.2f} s before: its navigation may be wrong, or "
+                  "somebody else sends as {}",
+                  callsign_, Way_m(before, after), bus::ToSeconds(after.utime - before.utime), callsign_));
 }
 
 Notice WatchedUav::Tell(std::int8_t severity, std::string code, std::string text) const {

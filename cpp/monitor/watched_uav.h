@@ -32,8 +32,11 @@ class WatchedUav {
   bool in_roster() const { return in_roster_; }
   void Enrol(const std::string& callsign);
 
-  /// Returns a notice when its clock has jumped, or when it is where it cannot have flown to.
-  std::optional<Notice> Hear(bus::Utime now, const Telemetry& telemetry);
+  struct Heard {
+    bool credible = true;          ///< false: its clock has jumped, or it is where it cannot have flown to
+    std::optional<Notice> notice;  ///< of that, each again after 10 s at the earliest
+  };
+  Heard Hear(bus::Utime now, const Telemetry& telemetry);
   /// Goes on with the watch of before a restart. Only at the start.
   void Recall(bus::Utime now, const LinkWatch::Memory& memory) { watch_.Recall(now, memory); }
   /// It may be anywhere when it is heard next.
@@ -61,7 +64,9 @@ class WatchedUav {
 
  private:
   Notice Tell(std::int8_t severity, std::string code, std::string text) const;
-  std::optional<Notice> Leap(bus::Utime now, const Telemetry& telemetry);
+  static bool HasLeapt(const Telemetry& before, const Telemetry& after);
+  static bool TimeHasJumped(bus::Utime elapsed, const Telemetry& before, const Telemetry& after);
+  Notice TellLeap(const Telemetry& before, const Telemetry& after) const;
   std::string DownlinkFault(bus::Utime now) const;
   std::string UplinkFault() const;
 
@@ -72,6 +77,7 @@ class WatchedUav {
   std::optional<bus::Utime> heard_;  ///< anything, fresh or not
   std::optional<Telemetry> last_;    ///< of what was heard
   bus::Utime leap_told_ = 0;
+  bus::Utime jump_told_ = 0;
 
   // As of the last judgement.
   LinkState downlink_ = LinkState::kUnknown;

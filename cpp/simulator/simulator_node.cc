@@ -11,6 +11,7 @@
 #include "bus/channels.h"
 #include "bus/chunks.h"
 #include "bus/conversions.h"
+#include "bus/refusals.h"
 
 namespace skein::simulator {
 namespace {
@@ -19,6 +20,9 @@ constexpr std::int64_t kTicksPerRoster = bus::kSecond / FleetSimulatorNode::kPer
 
 /// A link longer than this would hold back more messages than anybody wants.
 constexpr double kLongestDelay_s = 60;
+
+/// No network that Skein can fly over brings a command later.
+constexpr bus::Utime kOnItsWay = 2 * bus::kSecond;
 
 std::vector<SimulatedVehicle> MakeFleet(const SimulatorOptions& options, bus::Utime start) {
   std::vector<SimulatedVehicle> fleet;
@@ -229,24 +233,39 @@ void FleetSimulatorNode::PublishState(bus::Burst& burst) {
 }
 
 void FleetSimulatorNode::Command(const fleet_command_t& command) {
+  const bus::Utime now = bus_.executor().Now();
+  const auto refuse = [this](const char* why) { bus::Refuse(bus_, bus::channel::kCmdFleet, why); };
   // Meant for the flight before this one, or out of the recording of another: however new the session of its
-  // controller is, it must not take over.
-  if (command.to_session_id != start_utime()) return;
+  // controller is, it must not take over. When a flight begins, answers to the one before are on their way.
+  if (command.to_session_id != start_utime()) {
+    if (now - start_utime() > kOnItsWay) refuse("it commands another flight");
+    return;
+  }
+  // What the network doubles or brings late is ordinary, and a gap where it should have been.
+  const bool newer =
+      std::tie(command.session_id, command.request_id) > std::tie(command_session_id_, command_request_id_);
+  if (command.session_id < command_session_id_) {
+    refuse("it is of an earlier run of the controller");
+  } else if (!newer && command.state_tick < tick() - kOnItsWay / kPeriod) {
+    refuse("it is old");
+  }
   if (command.session_id == command_session_id_ && command.request_id > command_request_id_ + 1) {
     bus_.CountGaps(command.request_id - command_request_id_ - 1);
   }
-  if (std::tie(command.session_id, command.request_id) > std::tie(command_session_id_, command_request_id_)) {
+  if (newer) {
     command_session_id_ = command.session_id;
     command_request_id_ = command.request_id;
   }
   // Each UAV sees for itself whether its command is a newer one.
-  const bus::Utime now = bus_.executor().Now();
+  bool all_known = true;
   for (const vehicle_command_t& one : command.commands) {
     SimulatedVehicle* vehicle = Find(one.id);
+    all_known = all_known && vehicle;
     if (!vehicle) continue;
     const AutopilotInput input{one.speed_input_m_s, one.course_input_rad, one.climb_input_rad};
     vehicle->Send(now, FlightCommand{command.session_id, one.sequence, input});
   }
+  if (!all_known) refuse("it commands a UAV that is not in this fleet");
 }
 
 bus::Answer FleetSimulatorNode::SetLink(const link_command_t& command) {

@@ -143,11 +143,11 @@ TEST_F(HostileTest, AFlightMindsNoDatagrams) {
     EXPECT_EQ(nodes_[node]->WaitForEnd(0s), std::nullopt) << node << " has ended: " << nodes_[node]->output();
   }
   EXPECT_TRUE(HoldsSlots(20, 10s));
-  // Told, and once for each channel, however many there were.
+  // Told, and once for each channel and reason, however many there were.
   for (const std::string& node : kNodes) {
     std::map<std::string, int> told;
     const std::string output = nodes_[node]->output();
-    const std::regex refusal("message_refused: a message on (\\w+)");
+    const std::regex refusal("message_refused: a message on (\\w+ was refused: [^.]*)");
     for (std::sregex_iterator found(output.begin(), output.end(), refusal), end; found != end; ++found)
       ++told[(*found)[1].str()];
     EXPECT_FALSE(told.empty()) << node << ": " << output;

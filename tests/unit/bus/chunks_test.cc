@@ -45,6 +45,7 @@ class ChunkAssemblerTest : public testing::Test {
     const auto found = assembler_.Add(chunk);
     gaps_ += found.gaps;
     jumps_ += found.time_jumped ? 1 : 0;
+    refused_ += found.refused ? 1 : 0;
   }
   void AddAll(const fleet_state_t& state) {
     for (const auto& chunk : Chunks(state)) Add(chunk);
@@ -58,6 +59,7 @@ class ChunkAssemblerTest : public testing::Test {
   std::vector<Delivery> delivered_;
   std::int64_t gaps_ = 0;
   int jumps_ = 0;
+  int refused_ = 0;
   ChunkAssembler<fleet_state_t> assembler_{[this](const fleet_state_t& whole, int missing) {
     EXPECT_EQ(whole.num_vehicles, static_cast<int>(whole.vehicles.size()));
     delivered_.push_back({whole.tick, whole.num_vehicles, missing});
@@ -148,6 +150,7 @@ TEST_F(ChunkAssemblerTest, SkipsDuplicatesAndOlderSets) {
   AddAll(State(6, 5));
   EXPECT_EQ(Ticks(), (std::vector<std::int64_t>{5, 6}));
   EXPECT_EQ(gaps_, 0);
+  EXPECT_EQ(refused_, 0) << "networks double and overtake";
 }
 
 TEST_F(ChunkAssemblerTest, TakesALaterSessionAtOnceAndLeavesTheEarlierOneBehind) {
@@ -162,6 +165,59 @@ TEST_F(ChunkAssemblerTest, TakesALaterSessionAtOnceAndLeavesTheEarlierOneBehind)
   EXPECT_EQ(delivered_.size(), 21U);
   EXPECT_EQ(gaps_, 0);
   EXPECT_EQ(jumps_, 0);
+  EXPECT_EQ(refused_, 19) << "the earlier one should be silent";
+}
+
+TEST_F(ChunkAssemblerTest, RefusesNothingThatAnEarlierSessionHadOnItsWay) {
+  AddAll(State(500, 2, 100));
+  AddAll(State(0, 2, 200, 1'000'000'000 + 501 * kTick));
+  AddAll(State(499, 2, 100));
+  AddAll(State(500, 2, 100));
+  EXPECT_EQ(delivered_.size(), 2U);
+  EXPECT_EQ(refused_, 0);
+}
+
+TEST_F(ChunkAssemblerTest, RefusesTimesThatAreADayOff) {
+  AddAll(State(0, 2));
+  for (int tick = 1; tick < 10; ++tick) {
+    AddAll(State(tick, 2));
+    for (const std::int64_t off : {-1, 1}) {
+      auto wrong = State(tick + 1, 2);
+      wrong.utime += off * 86'400 * kSecond;
+      AddAll(wrong);
+    }
+  }
+  EXPECT_EQ(delivered_.size(), 10U);
+  EXPECT_EQ(refused_, 18);
+  EXPECT_EQ(jumps_, 0);
+}
+
+TEST_F(ChunkAssemblerTest, RefusesNothingOfASourceThatBeganAnewUnheard) {
+  AddAll(State(500, 2));
+  AddAll(State(1, 2, 100, 1'000'000'000 + 600 * kTick));
+  AddAll(State(2, 2, 100, 1'000'000'000 + 600 * kTick));
+  EXPECT_EQ(refused_, 0) << "its set 0 was lost";
+}
+
+TEST_F(ChunkAssemblerTest, RefusesASetInWhichAUavIsTwiceInTwoChunks) {
+  auto state = State(0, 5);
+  state.vehicles[4].id = 1;
+  AddAll(state);
+  EXPECT_TRUE(delivered_.empty());
+  EXPECT_EQ(refused_, 1);
+  AddAll(State(1, 5));
+  EXPECT_EQ(delivered_.size(), 1U);
+  // Also when the last chunk does not come.
+  state.tick = 2;
+  state.utime += 2 * kTick;
+  state.vehicles[2].id = 2;
+  const auto chunks = Chunks(state);
+  Add(chunks[0]);
+  Add(chunks[1]);
+  AddAll(State(3, 5));
+  EXPECT_EQ(delivered_.size(), 2U);
+  EXPECT_EQ(refused_, 2);
+  EXPECT_EQ(gaps_, 1);
 }
 
 TEST_F(ChunkAssemblerTest, TakesALaterSetZeroAtOnceAsItsSenderWasStartedAnew) {
@@ -204,6 +260,7 @@ TEST_F(ChunkAssemblerTest, IgnoresAChunkThatContradictsItsSet) {
   auto other = chunks[1];
   other.chunk_count = 77;
   Add(other);
+  EXPECT_EQ(refused_, 1);
   Add(chunks[1]);
   EXPECT_EQ(delivered_, (std::vector<Delivery>{{0, 4, 0}}));
 }

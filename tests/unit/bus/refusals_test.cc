@@ -79,6 +79,39 @@ TEST_F(RefusalsTest, MeetAUavThatIsThereTwiceInAnyOrder) {
   EXPECT_EQ(fleets_, std::vector<std::size_t>{3});
 }
 
+TEST_F(RefusalsTest, AreToldOnceForEachReason) {
+  for (int i = 0; i < 3; ++i) {
+    Send({Uav(1, std::nan(""))});
+    Refuse(node_, channel::kFleetState, "it is of another world");
+    CountFlagged(node_);
+  }
+  executor_.RunFor(kSecond);
+  ASSERT_EQ(events_.size(), 2U);
+  EXPECT_EQ(events_[0].text,
+            "a message on FLEET_STATE was refused: it does not decode, or holds what it must not. More of "
+            "them are only counted (HEARTBEAT)");
+  EXPECT_EQ(events_[1].text,
+            "a message on FLEET_STATE was refused: it is of another world. More of them are only counted "
+            "(HEARTBEAT)");
+  EXPECT_EQ(node_.statistics().undecodable, 9);
+}
+
+TEST_F(RefusalsTest, MeetATimeThatIsADayAheadAgainAndAgain) {
+  Send({Uav(1)});
+  for (int i = 0; i < 3; ++i) {
+    fleet_state_t wrong{};
+    wrong.utime = executor_.Now() + 86'400 * kSecond;
+    wrong.session_id = 1;
+    wrong.tick = tick_ + 1;
+    PublishChunks(stranger_, channel::kFleetState, wrong);
+    Send({Uav(1)});
+  }
+  EXPECT_EQ(node_.statistics().undecodable, 3);
+  EXPECT_EQ(fleets_.size(), 4U);
+  ASSERT_EQ(events_.size(), 1U);
+  EXPECT_NE(events_[0].text.find("time"), std::string::npos) << events_[0].text;
+}
+
 TEST_F(RefusalsTest, MeetAFleetOfAMillion) {
   std::vector<vehicle_state_t> million;
   for (int id = 1; id <= 1'000'000; ++id) million.push_back(Uav(id));

@@ -25,7 +25,8 @@ namespace skein::monitor::testing {
 /// Flies straight on; its faults are set by hand.
 struct FakeUav {
   VehicleState start;
-  double delay_s = 0;  ///< of its telemetry
+  double delay_s = 0;      ///< of its telemetry
+  double clock_off_s = 0;  ///< its stamps are so far ahead
   bool in_roster = true;
   bool downlink = true;
   bool uplink = true;
@@ -85,7 +86,7 @@ class FakeFleet {
         if (!uav.frozen || !uav.last) {
           const bus::Utime utime = now - bus::ToUtime(uav.delay_s);
           uav.last = bus::ToMessage(At(uav, utime));
-          uav.last->utime = utime;
+          uav.last->utime = utime + bus::ToUtime(uav.clock_off_s);
           uav.last->id = id;
           uav.last->command_session_id = uav.obeyed > 0 ? 9 : 0;
           uav.last->command_sequence = uav.obeyed;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include "unit/monitor/monitor_fixture.h"
 
@@ -48,6 +49,49 @@ TEST_F(MonitorLinks, LeapOfAUavIsToldOnceInTenSeconds) {
   fleet_.uavs[2].start.north_m += 5000;
   Run(3);
   EXPECT_EQ(heard_.Events("position_leapt").size(), 2u);
+}
+
+TEST_F(MonitorLinks, EveryLeapAndEveryTimeThatCannotBeAreCounted) {
+  Start();
+  Run(20);
+  std::int64_t counted = monitor_bus_.statistics().undecodable;
+  const auto more = [&] {
+    return monitor_bus_.statistics().undecodable -
+           std::exchange(counted, monitor_bus_.statistics().undecodable);
+  };
+  EXPECT_EQ(counted, 0);
+  for (int i = 0; i < 5; ++i) {
+    fleet_.uavs[2].start.north_m += 5000;
+    Run(0.05);
+  }
+  EXPECT_EQ(heard_.Events("position_leapt").size(), 1u);
+  EXPECT_EQ(more(), 5);
+  Run(10);
+  for (const double off_s : {-86'400.0, 86'400.0, -5.0}) {
+    heard_.events.clear();
+    for (int i = 0; i < 3; ++i) {
+      fleet_.uavs[3].clock_off_s = off_s;
+      Run(0.05);
+      fleet_.uavs[3].clock_off_s = 0;
+      Run(0.2);
+    }
+    EXPECT_EQ(heard_.Events("time_jumped").size(), 1u) << off_s;
+    EXPECT_EQ(heard_.Events("time_jumped").size(), heard_.events.size()) << off_s;
+    EXPECT_GE(more(), 3) << off_s;
+    Run(15);
+    EXPECT_EQ(more(), 0) << off_s;
+    EXPECT_EQ(heard_.Link(3)->downlink, kUp);
+  }
+}
+
+TEST_F(MonitorLinks, OfAUavWhoseClockIsOffForGoodAreUp) {
+  fleet_.uavs[3].clock_off_s = 86'400;
+  fleet_.uavs[2].clock_off_s = -86'400;
+  Start();
+  Run(30);
+  EXPECT_TRUE(heard_.events.empty());
+  EXPECT_EQ(monitor_bus_.statistics().undecodable, 0);
+  for (const int id : {1, 2, 3}) EXPECT_EQ(heard_.Link(id)->downlink, kUp);
 }
 
 TEST_F(MonitorLinks, AreTold1HzWhileNothingChanges) {

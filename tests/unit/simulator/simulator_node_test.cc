@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "bus/refusals.h"
 #include "unit/simulator/simulator_under_test.h"
 
 namespace skein::simulator {
@@ -116,6 +117,38 @@ TEST_F(SimulatorTest, ObeysNoControllerOfAnotherFlightHoweverLateItsSession) {
   RunUntil(0.7);
   EXPECT_EQ(node_->fleet()[0].input().speed_m_s, 65);
   EXPECT_EQ(simulator_.statistics().gaps, 0);
+}
+
+TEST_F(SimulatorTest, CountsCommandsThatCannotBeMeantAndTellsEachReasonOnce) {
+  bus::TellRefusals(simulator_);
+  Start(ScenarioOf(2));
+  RunUntil(10);
+  const auto refused = [this] { return simulator_.statistics().undecodable; };
+  SendCommand(1, 500, 60, 100);
+  EXPECT_EQ(refused(), 0);
+  for (int i = 0; i < 3; ++i) SendCommand(7, 501 + i, 60, 100);
+  EXPECT_EQ(refused(), 3) << "a UAV that is not there";
+  for (int i = 0; i < 3; ++i) SendCommand(1, 900, 80, 100, node_->start_utime() - 1);
+  EXPECT_EQ(refused(), 6) << "another flight";
+  for (int i = 0; i < 3; ++i) SendCommand(1, 900, 80, 50);
+  EXPECT_EQ(refused(), 9) << "an earlier controller";
+  for (int i = 0; i < 3; ++i) SendCommand(1, 400, 80, 100);
+  EXPECT_EQ(refused(), 12) << "tick 0 again";
+  RunUntil(12);
+  EXPECT_EQ(states_.back().vehicles[0].command_sequence, 500);
+  std::vector<std::string> told;
+  for (const event_t& event : events_) {
+    if (event.code == "message_refused") told.push_back(event.text);
+  }
+  EXPECT_EQ(told.size(), 4U) << ::testing::PrintToString(told);
+}
+
+TEST_F(SimulatorTest, RefusesNothingOfWhatNetworksAndNewFlightsBring) {
+  Start(ScenarioOf(1));
+  RunUntil(0.5);
+  SendCommand(1, 1, 80, 100, node_->start_utime() - 1);  // to the flight before
+  for (const std::int64_t sequence : {1, 2, 2, 5, 4, 3, 6}) SendCommand(1, sequence, 60, 100);
+  EXPECT_EQ(simulator_.statistics().undecodable, 0);
 }
 
 TEST_F(SimulatorTest, CountsCommandsThatNeverCame) {

@@ -60,7 +60,7 @@ class SimulatorTest : public testing::Test {
   /// @param to_session_id 0: this flight's.
   void SendCommand(int vehicle_id, std::int64_t sequence, double speed_m_s, std::int64_t session_id = 1,
                    std::int64_t to_session_id = 0) {
-    fleet_command_t command;
+    fleet_command_t command{};
     command.utime = executor_.Now();
     command.session_id = session_id;
     command.request_id = sequence;
