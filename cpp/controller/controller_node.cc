@@ -19,7 +19,7 @@ FormationControllerNode::FormationControllerNode(bus::Bus& bus, const Controller
     : bus_(bus),
       options_(options),
       events_(bus),
-      state_file_(options.state_file, "formation-controller 3", events_),
+      state_file_(options.state_file, "formation-controller 4", events_),
       inbox_(bus) {
   bus::SubscribeChunks<fleet_roster_t>(
       bus_, bus::channel::kFleetRoster, [this](const fleet_roster_t& roster, int) { OnRoster(roster); },

@@ -20,6 +20,9 @@ std::string Encode(const ControllerState& state) {
       bytes.Add(formation.arc_before_hold_m);
     }
   }
+  bytes.Add(state.heard);
+  bytes.Add(static_cast<std::int64_t>(state.lost.size()));
+  for (const int id : state.lost) bytes.Add(static_cast<std::int64_t>(id));
   return bytes.Take();
 }
 
@@ -44,6 +47,15 @@ std::optional<ControllerState> DecodeControllerState(std::string_view bytes) {
       saved.arc_before_hold_m = *arc;
     }
     state.formations.push_back(std::move(saved));
+  }
+  auto heard = reader.Take<fleet_state_t>();
+  const auto lost = reader.Number();
+  if (!heard || !lost) return std::nullopt;
+  state.heard = std::move(*heard);
+  for (std::int64_t i = 0; i < *lost; ++i) {
+    const auto id = reader.Number();
+    if (!id) return std::nullopt;
+    state.lost.push_back(static_cast<int>(*id));
   }
   return state;
 }

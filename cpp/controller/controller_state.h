@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <skein/fleet_state_t.hpp>
 #include <skein/formation_status_t.hpp>
 #include <skein/formation_t.hpp>
 #include <skein/path_t.hpp>
@@ -24,6 +25,9 @@ struct FormationState {
 struct ControllerState {
   bus::Utime start_utime = 0;  ///< of the roster; another fleet's state is of no use
   std::vector<FormationState> formations;
+  /// What was heard last of each UAV: one whose link is cut stays silent, and is avoided all the same.
+  fleet_state_t heard{};
+  std::vector<int> lost{};  ///< UAVs, by LINK_STATUS
 };
 
 /// As a bus::StateFile keeps it.

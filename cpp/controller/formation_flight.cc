@@ -46,6 +46,13 @@ void FormationFlight::TakeClock(bus::Utime utime) {
   for (auto& [id, member] : members_) member.controlled_utime = member.predict_utime = 0;
 }
 
+void FormationFlight::GoOnFrom(const formation_status_t& status) {
+  avoidance_.Restore({status.avoidance_up_m, status.avoidance_rate_m_s, 0}, status.avoidance_target_m);
+  utime_ = status.utime;
+  mode_ = status.mode;
+  mode_utime_ = status.mode_utime;
+}
+
 FormationFlight::Member FormationFlight::MakeMember(const Slot& slot) const {
   Member member;
   member.slot = slot.offset;
@@ -58,7 +65,7 @@ FormationFlight::Member FormationFlight::MakeMember(const Slot& slot) const {
 }
 
 FlightStep FormationFlight::Step(const FleetPicture& fleet, bus::Utime utime) {
-  const double step_s = utime_ == 0 ? 0 : bus::ToSeconds(utime - utime_);
+  const double step_s = utime_ == 0 ? 0 : std::max(0.0, bus::ToSeconds(utime - utime_));
   utime_ = utime;
   leader_.AdvanceTo(bus::ToSeconds(utime));
   here_ = leader_.path().At(leader_.arc_m());

@@ -76,7 +76,8 @@ class FormationFlight {
   const std::vector<Waypoint>& waypoints() const { return waypoints_; }
   void SetWaypoints(std::vector<Waypoint> waypoints) { waypoints_ = std::move(waypoints); }
   const Avoidance& avoidance() const { return avoidance_; }
-  void RestoreAvoidance(const AltitudeOffset& body, double target_m) { avoidance_.Restore(body, target_m); }
+  /// Takes up avoidance and mode as an earlier run told them, at the time that they were told of.
+  void GoOnFrom(const formation_status_t& status);
   std::int64_t path_revision() const { return path_revision_; }
   void SetPathRevision(std::int64_t revision) { path_revision_ = revision; }
   bool HasMember(int vehicle_id) const { return members_.contains(vehicle_id); }

@@ -158,6 +158,19 @@ std::optional<ControllerState> FormationControllerNode::StateNow() const {
     }
     state.formations.push_back(std::move(saved));
   }
+  state.heard.utime = tick_utime_;
+  state.heard.chunk_count = 1;
+  for (const auto& [id, view] : fleet_) {
+    if (view.lost) state.lost.push_back(id);
+    if (!view.state) continue;
+    vehicle_state_t heard = bus::ToMessage(*view.state);
+    heard.utime = view.state_utime;
+    heard.id = id;
+    heard.command_session_id = heard.command_sequence = 0;
+    heard.payload_on = 0;
+    state.heard.vehicles.push_back(heard);
+  }
+  state.heard.num_vehicles = static_cast<int>(state.heard.vehicles.size());
   return state;
 }
 
@@ -181,6 +194,14 @@ std::optional<ControllerState> FormationControllerNode::ReadState() {
 bool FormationControllerNode::RestoreState() {
   const auto state = ReadState();
   if (!state || state->start_utime != start_utime_) return false;
+  for (const vehicle_state_t& heard : state->heard.vehicles) {
+    const auto view = fleet_.find(heard.id);
+    if (view != fleet_.end()) view->second.Take(bus::ToVehicleState(heard), heard.utime, heard.utime);
+  }
+  for (const int id : state->lost) {
+    const auto view = fleet_.find(id);
+    if (view != fleet_.end()) view->second.lost = true;
+  }
   for (const FormationState& saved : state->formations) {
     const auto config = ToFormationConfig(saved.formation);
     if (!std::holds_alternative<config::FormationConfig>(config) || saved.status.utime == 0) continue;
@@ -191,8 +212,7 @@ bool FormationControllerNode::RestoreState() {
                              AirspaceOf(options_.scenario));
       flight.SetWaypoints(bus::ToWaypoints(saved.path));
       flight.SetPathRevision(saved.path.path_revision);
-      flight.RestoreAvoidance({saved.status.avoidance_up_m, saved.status.avoidance_rate_m_s, 0},
-                              saved.status.avoidance_target_m);
+      flight.GoOnFrom(saved.status);
       if (saved.path_before_hold) {
         flight.SetBeforeHold({bus::ToPath(*saved.path_before_hold), saved.arc_before_hold_m});
       }

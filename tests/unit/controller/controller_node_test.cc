@@ -390,6 +390,98 @@ TEST_F(ControllerNodeTest, GoesOnWhereAKilledControllerWas) {
   std::filesystem::remove(options_.state_file);
 }
 
+/// A controller that was killed, and another process that goes on with nothing but its file.
+class KilledControllerTest : public ControllerNodeTest {
+ protected:
+  KilledControllerTest() {
+    options_.state_file =
+        std::filesystem::temp_directory_path() / ("skein_killed_" + std::to_string(::getpid()));
+    Start();
+    SendRoster();
+    Fly(20);
+    silent_ = 3;
+  }
+  ~KilledControllerTest() override { std::filesystem::remove(options_.state_file); }
+
+  static void TellLost(bus::Bus& from, int id) {
+    link_status_t links{};
+    links.utime = from.executor().Now();
+    links.chunk_count = 1;
+    vehicle_link_t link{};
+    link.id = id;
+    link.downlink = link_status_t::LINK_LOST;
+    links.links.push_back(link);
+    links.num_links = 1;
+    from.Publish(bus::channel::kLinkStatus, links);
+  }
+
+  /// What the other one tells at its first ticks; UAV3 stays silent.
+  std::vector<formation_status_t> GoOn(bus::Utime after, bool tell_lost) {
+    node_.reset();
+    bus::Transport transport = bus::MakeTransport("memq://");
+    bus::SimulatedExecutor executor(transport.lcm, executor_.Now() + after);
+    bus::Bus other(transport.lcm, "formation-controller", executor);
+    bus::Bus station(transport.lcm, "test", executor);
+    std::vector<formation_status_t> told;
+    station.Subscribe<formation_status_t>(bus::channel::kFormationStatus,
+                                          [&](const formation_status_t& status) { told.push_back(status); });
+    options_.status_every_ticks = 1;
+    const FormationControllerNode restarted(other, options_);
+    fleet_roster_t roster{};
+    roster.utime = executor.Now();
+    roster.session_id = 1;
+    roster.start_utime = start_utime_;
+    for (const auto& [id, uav] : uavs_)
+      roster.vehicles.push_back(bus::ToMessage(id, "UAV" + std::to_string(id), VehicleModel(), true));
+    bus::PublishChunks(station, bus::channel::kFleetRoster, roster);
+    if (tell_lost) TellLost(station, 3);
+    for (int i = 0; i < 3; ++i) {
+      fleet_state_t state{};
+      state.utime = executor.Now();
+      state.session_id = 1;
+      state.tick = tick_ + after / FlightBench::kTick + i;
+      for (const auto& [id, uav] : uavs_) {
+        if (id == silent_) continue;
+        vehicle_state_t vehicle = bus::ToMessage(uav);
+        vehicle.utime = state.utime;
+        vehicle.id = id;
+        vehicle.command_session_id = vehicle.command_sequence = 0;
+        vehicle.payload_on = 0;
+        state.vehicles.push_back(vehicle);
+      }
+      bus::PublishChunks(station, bus::channel::kFleetState, state);
+      executor.RunFor(FlightBench::kTick);
+    }
+    return told;
+  }
+};
+
+TEST_F(KilledControllerTest, GoesOnWithTheClimbThatItWasIn) {
+  Fly(80);
+  TellLost(station_, 3);
+  Fly(130);  // to half a second after the state was kept
+  ASSERT_EQ(status_.mode, formation_status_t::MODE_AVOIDING);
+  ASSERT_EQ(status_.avoidance_rate_m_s, 10);
+  const formation_status_t before = node_->flights().at(1).Status(tick_);
+  constexpr bus::Utime kGap = bus::kSecond / 2;
+  const auto told = GoOn(kGap, false);
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.front().mode, formation_status_t::MODE_AVOIDING) << told.front().mode_text;
+  EXPECT_EQ(told.front().mode_utime, before.mode_utime);
+  EXPECT_EQ(told.front().avoidance_target_m, before.avoidance_target_m);
+  EXPECT_NEAR(told.front().avoidance_up_m,
+              before.avoidance_up_m + 10 * bus::ToSeconds(told.front().utime - before.utime), 1e-6);
+}
+
+TEST_F(KilledControllerTest, AvoidsAUavThatHasBeenSilentSinceBefore) {
+  Fly(60);
+  ASSERT_EQ(status_.avoidance_target_m, 0) << "nobody has called it lost yet";
+  const auto told = GoOn(bus::kSecond / 2, true);
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.back().mode, formation_status_t::MODE_AVOIDING) << told.back().mode_text;
+  EXPECT_EQ(told.back().avoidance_target_m, 200);
+}
+
 TEST_F(ControllerNodeTest, DoesNotCatchUpWithAStartThatNoFlightCanHave) {
   start_utime_ = 1;  // 1970: seven thousand million steps
   Start();
