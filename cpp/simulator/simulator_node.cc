@@ -241,6 +241,11 @@ void FleetSimulatorNode::Command(const fleet_command_t& command) {
     if (now - start_utime() > kOnItsWay) refuse("it commands another flight");
     return;
   }
+  // Nor may its request id stand, or none that is true would be counted as missed any more.
+  if (command.state_tick > (now + kOnItsWay - start_utime()) / kPeriod)
+    return refuse("it answers a state that is yet to come");
+  // A later session that is silent may be a false one that was heard once.
+  if (command.session_id < command_session_id_ && now - commanded_ > kOnItsWay) command_session_id_ = 0;
   // What the network doubles or brings late is ordinary, and a gap where it should have been.
   const bool newer =
       std::tie(command.session_id, command.request_id) > std::tie(command_session_id_, command_request_id_);
@@ -252,6 +257,7 @@ void FleetSimulatorNode::Command(const fleet_command_t& command) {
   if (command.session_id == command_session_id_ && command.request_id > command_request_id_ + 1) {
     bus_.CountGaps(command.request_id - command_request_id_ - 1);
   }
+  if (command.session_id >= command_session_id_) commanded_ = now;
   if (newer) {
     command_session_id_ = command.session_id;
     command_request_id_ = command.request_id;

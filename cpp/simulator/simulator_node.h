@@ -94,6 +94,7 @@ class FleetSimulatorNode {
   bus::CommandInbox inbox_;
   std::string started_with_;  ///< the scenario's file
   std::unique_ptr<Flight> flight_;
+  bus::Utime commanded_ = 0;  ///< by the session below, last
   std::int64_t command_session_id_ = 0;
   std::int64_t command_request_id_ = 0;
 };

@@ -164,6 +164,7 @@ TEST_F(RestartTest, TakesNoCommandThatAnswersTheFlightBefore) {
   Run(5);
   EXPECT_EQ(state_.vehicles[0].command_sequence, 0);
   command.to_session_id = state_.session_id;
+  command.state_tick = state_.tick;
   station_.Publish(channel::kCmdFleet, command);
   Run(0.2);
   EXPECT_EQ(state_.vehicles[0].command_sequence, 1);

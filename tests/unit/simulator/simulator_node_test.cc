@@ -143,6 +143,30 @@ TEST_F(SimulatorTest, CountsCommandsThatCannotBeMeantAndTellsEachReasonOnce) {
   EXPECT_EQ(told.size(), 4U) << ::testing::PrintToString(told);
 }
 
+TEST_F(SimulatorTest, RefusesAnAnswerToAStateThatIsYetToCome) {
+  Start(ScenarioOf(1));
+  RunUntil(10);
+  SendCommand(1, 500, 60, 100);
+  state_tick_ = 20 * 86'400;
+  SendCommand(1, 501, 80, 100);
+  EXPECT_EQ(simulator_.statistics().undecodable, 1);
+  RunUntil(11);
+  EXPECT_EQ(states_.back().vehicles[0].command_sequence, 500);
+}
+
+TEST_F(SimulatorTest, CountsOfAFalseSessionThatWasHeardOnceEndWithIt) {
+  Start(ScenarioOf(1));
+  RunUntil(10);
+  SendCommand(1, 1, 60, 1'000'000);
+  for (std::int64_t sequence = 1; sequence <= 200; ++sequence) {
+    RunUntil(10 + 0.05 * static_cast<double>(sequence));
+    SendCommand(1, sequence, 65, 100);
+  }
+  EXPECT_GT(simulator_.statistics().undecodable, 0);
+  EXPECT_LE(simulator_.statistics().undecodable, 42);
+  EXPECT_EQ(simulator_.statistics().gaps, 0);
+}
+
 TEST_F(SimulatorTest, RefusesNothingOfWhatNetworksAndNewFlightsBring) {
   Start(ScenarioOf(1));
   RunUntil(0.5);

@@ -64,6 +64,7 @@ class SimulatorTest : public testing::Test {
     command.utime = executor_.Now();
     command.session_id = session_id;
     command.request_id = sequence;
+    command.state_tick = state_tick_;
     command.to_session_id = to_session_id > 0 ? to_session_id : node_->start_utime();
     command.chunk = 0;
     command.chunk_count = 1;
@@ -130,6 +131,7 @@ class SimulatorTest : public testing::Test {
   std::vector<event_t> events_;
   std::vector<ack_t> acks_;
   std::int64_t link_requests_ = 0;
+  std::int64_t state_tick_ = 0;  ///< of the state that commands answer
   std::int64_t payload_requests_ = 0;
 };
 
