@@ -45,6 +45,9 @@ path_t PathMessage(const FormationFlight& flight, bus::Utime utime) {
 
 std::variant<config::FormationConfig, std::string> ToFormationConfig(const formation_t& message) {
   config::FormationConfig config;
+  // Nobody would take what is said of it: 0 means none.
+  if (message.formation_id < 1)
+    return fmt::format("the id of a formation must be 1 or more, not {}", message.formation_id);
   config.id = message.formation_id;
   config.name = message.name;
   config.control = message.control;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <skein/ack_t.hpp>
 #include <skein/event_t.hpp>
@@ -221,6 +222,15 @@ TEST_F(ControllerNodeTest, RefusesFormationsThatCannotBe) {
             std::string::npos);
   EXPECT_NE(refused([](formation_t& f) { f.slots.clear(), f.num_slots = 0; }).find("slot"),
             std::string::npos);
+  for (const int id : {0, -1, std::numeric_limits<int>::min()}) {
+    const std::string why_not = refused([id](formation_t& f) {
+      f.formation_id = id;
+      f.slots = {f.slots[0]};
+      f.slots[0].vehicle_id = 9;  // in no formation
+      f.num_slots = 1;
+    });
+    EXPECT_NE(why_not.find("id"), std::string::npos) << why_not;
+  }
 }
 
 TEST_F(ControllerNodeTest, TakesSlotsInsideOneAnothersCylinderButSaysSo) {

@@ -9,6 +9,7 @@
 #include "unit/bus/hostile/allocations.h"
 #include "unit/bus/hostile/samples.h"
 #include "unit/bus/hostile/schema.h"
+#include "unit/bus/hostile/types.h"
 
 namespace skein::bus::testing {
 namespace {
@@ -41,11 +42,6 @@ class DecodeTest : public ::testing::Test {
   const std::vector<std::uint8_t> good_ = Encode(Sample<Message>());
 };
 
-using Messages =
-    ::testing::Types<ack_t, alarm_command_t, alarm_list_t, event_t, fleet_command_t, fleet_roster_t,
-                     fleet_state_t, formation_command_t, formation_status_t, formation_t, heartbeat_t,
-                     link_command_t, link_status_t, path_command_t, path_t, payload_command_t, proximity_t,
-                     recording_command_t, recording_status_t, simulation_command_t>;
 TYPED_TEST_SUITE(DecodeTest, Messages);
 
 TYPED_TEST(DecodeTest, TakesAGoodMessage) {

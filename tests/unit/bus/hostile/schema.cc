@@ -66,18 +66,23 @@ void Schema::WalkType(const std::string& type, Walk& walk) const {
   for (const Field& field : types_.at(type)) {
     if (field.length_field.empty()) {
       const std::size_t offset = walk.offset;
-      numbers[field.name] = {WalkValue(field.type, field.name, walk), offset};
+      numbers[field.name] = {WalkValue(type, field.type, field.name, walk), offset};
       continue;
     }
     const auto [length, offset] = numbers.at(field.length_field);
     const std::size_t rest = walk.bytes.size() - walk.offset;
+    // The length is no integer of its own.
+    std::erase_if(walk.places, [at = offset](const Place& place) {
+      return place.kind == Place::Kind::kInteger && place.offset == at;
+    });
     walk.places.push_back({Place::Kind::kArrayLength, field.name, offset, length,
                            static_cast<std::int64_t>(rest / LeastSize(field.type)) + 1});
-    for (std::int64_t i = 0; i < length; ++i) WalkValue(field.type, field.name, walk);
+    for (std::int64_t i = 0; i < length; ++i) WalkValue(type, field.type, field.name, walk);
   }
 }
 
-std::int64_t Schema::WalkValue(const std::string& type, const std::string& name, Walk& walk) const {
+std::int64_t Schema::WalkValue(const std::string& owner, const std::string& type, const std::string& name,
+                               Walk& walk) const {
   const std::size_t offset = walk.offset;
   if (type == "string") {
     const std::int32_t length = ReadInt32(walk.bytes, offset);
@@ -94,6 +99,8 @@ std::int64_t Schema::WalkValue(const std::string& type, const std::string& name,
   walk.offset += size->second;
   if (type == "double") walk.places.push_back({Place::Kind::kDouble, name, offset});
   if (type == "boolean") walk.places.push_back({Place::Kind::kBoolean, name, offset});
+  if (type.starts_with("int"))
+    walk.places.push_back({Place::Kind::kInteger, name, offset, 0, 0, owner, size->second});
   return type == "int32_t" ? ReadInt32(walk.bytes, offset) : 0;
 }
 
@@ -101,6 +108,20 @@ std::int32_t ReadInt32(const std::vector<std::uint8_t>& bytes, std::size_t offse
   std::uint32_t value = 0;
   for (std::size_t i = 0; i < 4; ++i) value = value << 8 | bytes.at(offset + i);
   return static_cast<std::int32_t>(value);
+}
+
+std::int64_t ReadInteger(const std::vector<std::uint8_t>& bytes, std::size_t offset, std::size_t size) {
+  // All ones when it is negative.
+  auto value = static_cast<std::uint64_t>(static_cast<std::int8_t>(bytes.at(offset)));
+  for (std::size_t i = 1; i < size; ++i) value = value << 8 | bytes.at(offset + i);
+  return static_cast<std::int64_t>(value);
+}
+
+void WriteInteger(std::vector<std::uint8_t>& bytes, std::size_t offset, std::size_t size,
+                  std::int64_t value) {
+  for (std::size_t i = 0; i < size; ++i)
+    bytes.at(offset + i) =
+        static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8 * (size - 1 - i)));
 }
 
 void WriteInt32(std::vector<std::uint8_t>& bytes, std::size_t offset, std::int32_t value) {
