@@ -89,6 +89,14 @@ void Avoidance::UpdateRole(const MemberObservation& seen, Member& member, const 
     member.level_m = seen.level_m;
     return;
   }
+  if (member.role == Role::kLost && seen.in_place &&
+      std::abs(seen.level_m - body_.now().height_m) <= 0.5 * limits.clearance_m) {
+    // Where it belongs, among the others, it is in nobody's way; after all were silent that is so of each.
+    member.role = Role::kFlying;
+    member.ramp = AltitudeRamp({seen.level_m, 0, 0}, body_.limits());
+    events.push_back(
+        {event_t::INFO, "rejoined", seen.id, fmt::format("{} is heard again, in place", seen.callsign)});
+  }
   if (member.role == Role::kLost) {
     member.role = Role::kRejoining;
     // It comes back at the level that it has; its slot is taken there first, so that nothing jumps.

@@ -28,6 +28,7 @@ struct MemberObservation {
   bool heard = true;  ///< false: no telemetry since the controller started; nothing below is known
   bool lost = false;
   double level_m = 0;           ///< its height over the altitude planned for its slot
+  bool in_place = false;        ///< near its slot, seen from above
   bool ready_to_merge = false;  ///< close enough to its slot, or on a way that is clear of everybody
   Traffic track;
 };

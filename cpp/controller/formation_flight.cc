@@ -120,6 +120,7 @@ MemberObservation FormationFlight::Observe(int id, Member& member, const Vehicle
   const VehicleState now = view.At(utime_);
   seen.level_m = now.up_m - member.planned.position.z();
   seen.track = {Position(now), Velocity(now)};
+  seen.in_place = SlotError(member.planned, Position(now)).head<2>().norm() < kMergeDistance;
   seen.ready_to_merge = avoidance_.role(id) == Role::kRejoining && ReadyToMerge(id, member, view);
   return seen;
 }

@@ -18,7 +18,7 @@ constexpr const char* kWallClock = "wall-clock";
 
 ClockWatch::ClockWatch(bus::Bus& bus, AlarmDesk& alarms) : alarms_(alarms) {
   bus.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [this, &bus](const heartbeat_t& heartbeat) {
-    Hear(heartbeat.heartbeat_node, heartbeat.utime - bus.executor().Now());
+    Hear(heartbeat.heartbeat_node, heartbeat.utime, bus.executor().Now());
   });
   bus.executor().Every(bus::kSecond, [this, &bus] { LookAtWallClock(bus.executor().WallAhead()); });
 }
@@ -35,7 +35,8 @@ void ClockWatch::LookAtWallClock(bus::Utime ahead) {
                    ahead > 0 ? "forward" : "back", bus::ToSeconds(std::abs(ahead)))});
 }
 
-void ClockWatch::Hear(const std::string& node, bus::Utime offset) {
+void ClockWatch::Hear(const std::string& node, bus::Utime sent, bus::Utime now) {
+  const bus::Utime offset = sent - now;
   if (nodes_.size() >= kMostNodes && !nodes_.contains(node)) {
     std::erase_if(nodes_, [](const auto& known) { return !known.second.alarm; });
     if (nodes_.size() >= kMostNodes) return;
@@ -43,8 +44,9 @@ void ClockWatch::Hear(const std::string& node, bus::Utime offset) {
   Offset& known = nodes_[node];
   const bus::Utime most = known.alarm ? kMost / 2 : kMost;
   const bool off = std::abs(offset) > most;
-  known.in_a_row = off ? known.in_a_row + 1 : 0;
-  if (off == known.alarm || (off && known.in_a_row < kInARow)) return;
+  if (!off) known.off_since.reset();
+  if (off && !known.off_since) known.off_since = now;
+  if (off == known.alarm || (off && now - *known.off_since < kOffFor)) return;
   known.alarm = off;
   const std::string key = "clock:" + node;
   if (!off) return alarms_.End(key);

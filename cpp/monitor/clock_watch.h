@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "bus/bus.h"
@@ -18,15 +19,16 @@ class ClockWatch {
 
   /// Off by more than this is an alarm, until it is off by less than half of it.
   static constexpr bus::Utime kMost = bus::kSecond;
-  /// So many heartbeats in a row: one may be late for other reasons.
-  static constexpr int kInARow = 3;
+  /// In all heartbeats for so long, by ours: one may be late for other reasons, and when this process was
+  /// stopped meanwhile, many at once.
+  static constexpr bus::Utime kOffFor = 3 * bus::kSecond / 2;
 
  private:
   struct Offset {
-    int in_a_row = 0;
+    std::optional<bus::Utime> off_since;
     bool alarm = false;
   };
-  void Hear(const std::string& node, bus::Utime offset);
+  void Hear(const std::string& node, bus::Utime sent, bus::Utime now);
   void LookAtWallClock(bus::Utime ahead);
 
   AlarmDesk& alarms_;

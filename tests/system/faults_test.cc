@@ -188,19 +188,6 @@ TEST_F(FaultsTest, AMonitorKilledRightAfterACutTellsTheLossWithinFiveSeconds) {
   std::cout << "told " << slowest_s << " s after it was last heard, at most\n";
 }
 
-TEST_F(FaultsTest, AControllerThatWasStoppedForTenSecondsGoesOn) {
-  StartAll();
-  ASSERT_TRUE(HoldsSlots(20, 120s));
-  nodes_["formation-controller"]->Signal(SIGSTOP);
-  EXPECT_TRUE(HearsAlarm(
-      "node_silent:formation-controller", [](const alarm_t&) { return true; }, 5s));
-  // What it is about is how long it was stopped.
-  EXPECT_FALSE(Hears<formation_status_t>(
-      url_, bus::channel::kFormationStatus, [](const auto&) { return true; }, 7s));
-  nodes_["formation-controller"]->Signal(SIGCONT);
-  EXPECT_TRUE(HoldsSlots(20, 30s));
-}
-
 TEST_F(FaultsTest, WhenTheSimulatorIsGoneThatIsToldWithinFiveSeconds) {
   StartAll();
   nodes_["fleet-simulator"]->Signal(SIGKILL);

@@ -82,6 +82,27 @@ TEST_F(AvoidanceTest, NobodyClimbsWhenAllAreLost) {
   EXPECT_EQ(avoidance_.body().target_m(), 0);
 }
 
+TEST_F(AvoidanceTest, NobodyChangesLevelWhenAllAreHeardAgainInPlace) {
+  for (MemberObservation& seen : members_) seen.lost = seen.in_place = true;
+  Fly(5);
+  for (MemberObservation& seen : members_) seen.lost = false;
+  for (int i = 0; i < 10; ++i) {
+    Fly(1);
+    for (const int id : {1, 2, 3}) EXPECT_EQ(Height(id), 0) << "UAV" << id;
+  }
+  EXPECT_FALSE(avoidance_.active());
+}
+
+TEST_F(AvoidanceTest, OneThatIsHeardAgainInPlaceButAtAnotherLevelStaysThereAtFirst) {
+  Uav(3).lost = Uav(3).in_place = true;
+  Fly(26);
+  Uav(3).lost = false;
+  Fly(10);
+  EXPECT_EQ(avoidance_.role(3), Role::kRejoining);
+  EXPECT_EQ(Height(3), 0);
+  EXPECT_EQ(Height(1), 200);
+}
+
 TEST_F(AvoidanceTest, ClimbsByLessUnderACeilingAndDescendsWhenUpIsClosed) {
   limits_.highest_m = 170;
   Uav(2).lost = true;

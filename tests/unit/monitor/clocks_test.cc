@@ -63,6 +63,19 @@ TEST_F(MonitorClocks, ThatAreALittleOffAreNotToldAndOneThatIsSetRightEndsTheAlar
   EXPECT_EQ(Alarm()->state, alarm_t::ENDED);
 }
 
+TEST_F(MonitorClocks, AreNotToldWhenHeartbeatsHaveWaitedBecauseTheMonitorWasStopped) {
+  Start();
+  Run(5);
+  for (int age_s = 10; age_s > 0; --age_s) {
+    heartbeat_t heartbeat{};
+    heartbeat.heartbeat_node = "fleet-simulator";
+    heartbeat.utime = executor_.Now() - age_s * bus::kSecond;
+    station_.Publish(bus::channel::kHeartbeat, heartbeat);
+  }
+  Run(5);
+  EXPECT_FALSE(Alarm());
+}
+
 TEST_F(MonitorClocks, AreToldWhenThatOfTheHostIsSet) {
   Start();
   const auto alarm = [&] { return std::ranges::find(alarms_, "wall-clock", &alarm_t::condition); };
