@@ -5,15 +5,14 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "system/bus_ear.h"
 #include "system/process.h"
+#include "system/text_files.h"
 
 namespace skein::testing {
 namespace {
@@ -25,12 +24,7 @@ const fs::path kDeploy = fs::path(SKEIN_SOURCE_DIR) / "deploy";
 const std::vector<std::string> kPrograms{"fleet-simulator", "formation-controller", "collision-monitor",
                                          "web-bridge", "flight-recorder"};
 
-std::string Content(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// A file system as an installation leaves it, as far as systemd-analyze looks at it.
+/// A file system as an installation by deploy/README.md leaves it, as far as systemd-analyze looks at it.
 class UnitsTest : public ::testing::Test {
  protected:
   UnitsTest() {
@@ -45,8 +39,7 @@ class UnitsTest : public ::testing::Test {
       if ((extension == ".target" || extension == ".slice") && entry.is_regular_file())
         fs::copy(entry.path(), root_ / "usr/lib/systemd/system");
     }
-    for (const auto& entry : fs::directory_iterator(kDeploy / "systemd"))
-      if (entry.path().extension() != ".env" && entry.is_regular_file()) fs::copy(entry.path(), Units());
+    DoAsToldIn("README.md", "useradd --system skein\n");
   }
   ~UnitsTest() override { fs::remove_all(root_); }
 
@@ -55,17 +48,37 @@ class UnitsTest : public ::testing::Test {
     std::ofstream(root_ / path) << "#!/bin/sh\n";
     fs::permissions(root_ / path, fs::perms::owner_all);
   }
-  /// Into a network of their own, as deploy/README.md says.
-  void MakeSingleHost() {
-    const fs::path single = kDeploy / "systemd/single-host";
-    const auto drop_in = [&](const std::string& unit, const char* file) {
-      fs::create_directories(Units() / (unit + ".service.d"));
-      fs::copy(single / file, Units() / (unit + ".service.d") / "single-host.conf");
-    };
-    drop_in("skein-bus", "skein-bus.conf");
-    for (const std::string& program : kPrograms) drop_in("skein-" + program, "skein-node.conf");
-    fs::copy(single / "skein-page.socket", Units());
-    fs::copy(single / "skein-page.service", Units());
+  /// Types what a README in deploy/ says in the block that holds `word`, but for what needs a running
+  /// systemd.
+  void DoAsToldIn(const std::string& readme, const std::string& word) {
+    for (const std::string& block : IndentedBlocks(Content(kDeploy / readme))) {
+      if (block.find(word) == std::string::npos) continue;
+      const Finished done =
+          RunToEnd({"sh", "-ec",
+                    "cd " SKEIN_SOURCE_DIR "; useradd() { :; }; systemctl() { :; }; nsenter() { :; }\n" +
+                        std::regex_replace(block, std::regex("/etc/"), root_.string() + "/etc/")});
+      ASSERT_EQ(done.exit_code, 0) << done.output;
+      return;
+    }
+    FAIL() << "no such block: " << word;
+  }
+  void MakeSingleHost() { DoAsToldIn("README.md", "cd deploy/systemd/single-host\n"); }
+  /// How much of the host a service may touch, of 100, by systemd's count.
+  int Exposure(const std::string& service) const {
+    const std::string said =
+        RunToEnd({"systemd-analyze", "security", "--offline=true", "--root=" + root_.string(), service})
+            .output;
+    std::smatch found;
+    const bool is_there =
+        std::regex_search(said, found, std::regex("exposure level for \\S+: (\\d+)\\.(\\d)"));
+    EXPECT_TRUE(is_there) << said;
+    return is_there ? std::stoi(found[1].str() + found[2].str()) : 100;
+  }
+  std::vector<std::string> Services() const {
+    std::vector<std::string> services;
+    for (const auto& entry : fs::directory_iterator(Units()))
+      if (entry.path().extension() == ".service") services.push_back(entry.path().filename());
+    return services;
   }
   /// What systemd finds wrong with the units.
   std::string Problems() const {
@@ -84,6 +97,18 @@ TEST_F(UnitsTest, AreAsSystemdWantsThem) { EXPECT_EQ(Problems(), ""); }
 TEST_F(UnitsTest, AreSoInANetworkOfTheirOwn) {
   MakeSingleHost();
   EXPECT_EQ(Problems(), "");
+}
+
+TEST_F(UnitsTest, LeaveEachServiceLittleThatItDoesNotNeed) {
+  const auto check = [&](std::size_t count) {
+    EXPECT_EQ(Services().size(), count);
+    // The one that makes a route is root, if with this right alone.
+    for (const std::string& service : Services())
+      EXPECT_LE(Exposure(service), service == "skein-bus.service" ? 21 : 14) << service;
+  };
+  check(kPrograms.size() + 1);
+  MakeSingleHost();
+  check(kPrograms.size() + 2);
 }
 
 TEST_F(UnitsTest, WouldBeFoundOutIfTheyWereNot) {
@@ -115,7 +140,8 @@ TEST_F(UnitsTest, HaveAFolderForTemporaryFilesInANetworkOfTheirOwn) {
 /// The shell's part of a line of skein-bus.service, as systemd would run it.
 std::string BusScript(const std::string& key) {
   std::string unit = Content(kDeploy / "systemd/skein-bus.service");
-  for (const auto& [from, to] : {std::pair("\\\n", ""), std::pair("$$", "$"), std::pair("%%", "%")}) {
+  for (const auto& [from, to] :
+       {std::pair("\\\n", ""), std::pair("$$", "$"), std::pair("%t", "/run"), std::pair("%%", "%")}) {
     for (std::size_t at = 0; (at = unit.find(from, at)) != std::string::npos; at += std::string(to).size())
       unit.replace(at, std::string(from).size(), to);
   }
@@ -127,8 +153,8 @@ std::string BusScript(const std::string& key) {
 TEST_F(UnitsTest, MakeARouteOverLoForABusThatStaysOnThisHostAndTakeItAway) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root";
   const std::string routes = "; ip -4 route show; echo -; ";
-  const std::string script = "mount -t tmpfs none /run && ip link set lo up && (" + BusScript("ExecStart") +
-                             ")" + routes + BusScript("ExecStop") + routes;
+  const std::string script = "mount -t tmpfs none /run && mkdir /run/skein-bus && ip link set lo up && (" +
+                             BusScript("ExecStart") + ")" + routes + BusScript("ExecStop") + routes;
   const auto run = [&](const std::string& url) {
     return RunToEnd({"env", "LCM_DEFAULT_URL=" + url, "unshare", "--net", "--mount", "sh", "-ec", script})
         .output;

@@ -5,12 +5,10 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <regex>
 #include <skein/formation_status_t.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +16,7 @@
 #include "system/bus_ear.h"
 #include "system/hosts.h"
 #include "system/process.h"
+#include "system/text_files.h"
 
 namespace skein::testing {
 namespace {
@@ -28,29 +27,6 @@ using namespace std::chrono_literals;
 const std::string kLcmJar = "/usr/share/java/lcm.jar";
 const std::string kGroundOutside = "10.78.0.1";
 const std::string kGroundInTunnel = "10.76.67.1";
-
-std::string Content(const fs::path& file) {
-  std::ifstream stream(file);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-/// The indented blocks of a text in Markdown.
-std::vector<std::string> IndentedBlocks(const std::string& markdown) {
-  const std::string indent = "    ";
-  std::vector<std::string> blocks;
-  bool goes_on = false;
-  std::istringstream lines(markdown);
-  for (std::string line; std::getline(lines, line);) {
-    const bool indented = line.starts_with(indent);
-    // Between the sections of a file there is an empty line.
-    if (!indented && !line.empty()) goes_on = false;
-    if (!indented && !goes_on) continue;
-    if (!goes_on) blocks.emplace_back();
-    goes_on = true;
-    blocks.back() += (indented ? line.substr(indent.size()) : line) + "\n";
-  }
-  return blocks;
-}
 
 /// The configuration of a tunnel with the words in brackets filled in.
 std::string FilledIn(std::string config, const std::map<std::string, std::string>& values) {
