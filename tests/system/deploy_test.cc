@@ -32,6 +32,7 @@ class UnitsTest : public ::testing::Test {
       fs::create_directories(root_ / folder);
     for (const std::string& program : kPrograms) PutProgram("usr/bin/" + program);
     PutProgram("usr/bin/sh");
+    PutProgram("usr/bin/java");
     PutProgram("lib/systemd/systemd-socket-proxyd");
     const fs::path systems = "/usr/lib/systemd/system";
     for (const auto& entry : fs::directory_iterator(systems)) {
@@ -109,6 +110,15 @@ TEST_F(UnitsTest, LeaveEachServiceLittleThatItDoesNotNeed) {
   check(kPrograms.size() + 1);
   MakeSingleHost();
   check(kPrograms.size() + 2);
+}
+
+TEST_F(UnitsTest, IncludeOneOfLcmsHubThatIsAsGood) {
+  DoAsToldIn("wireguard/README.md", "lcm-hub.service");
+  EXPECT_EQ(Problems(), "");
+  EXPECT_LE(Exposure("lcm-hub.service"), 14);
+  const Finished enabled = RunToEnd({"systemctl", "--root=" + root_.string(), "enable", "lcm-hub"});
+  EXPECT_TRUE(fs::is_symlink(Units() / "multi-user.target.wants/lcm-hub.service"))
+      << "would not start with the host: " << enabled.output;
 }
 
 TEST_F(UnitsTest, WouldBeFoundOutIfTheyWereNot) {

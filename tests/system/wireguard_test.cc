@@ -73,10 +73,10 @@ class WireGuardTest : public ::testing::Test {
   void ReadReadme() {
     const std::string readme = Content(fs::path(SKEIN_SOURCE_DIR) / "deploy/wireguard/README.md");
     const std::vector<std::string> blocks = IndentedBlocks(readme);
-    ASSERT_EQ(blocks.size(), 4U) << "two configurations, hub and node, firewall";
+    ASSERT_EQ(blocks.size(), 5U) << "two configurations, hub and node, firewall, what a reboot needs";
     ground_config_ = blocks[0];
     other_config_ = std::regex_replace(blocks[1], std::regex("ground\\.example\\.org"), kGroundOutside);
-    hub_rule_ = blocks[3];
+    hub_rule_ = "cd " SKEIN_SOURCE_DIR "; " + blocks[3];
     std::smatch found;
     ASSERT_TRUE(std::regex_search(readme, found, std::regex("keys by `([^`]*)`")));
     keys_command_ = found[1];
