@@ -15,6 +15,7 @@
 #include <set>
 #include <skein/alarm_list_t.hpp>
 #include <skein/event_t.hpp>
+#include <skein/fleet_command_t.hpp>
 #include <skein/fleet_state_t.hpp>
 #include <skein/formation_status_t.hpp>
 #include <skein/heartbeat_t.hpp>
@@ -34,22 +35,64 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class OnlyOneTest : public FaultsTest, public ::testing::WithParamInterface<std::string> {};
+class OnlyOneTest : public FaultsTest, public ::testing::WithParamInterface<std::string> {
+ protected:
+  /// Listens for so long, from before `begin`. What is heard of the node under test comes from one process
+  /// alone: its heartbeats, each tick and the commands to it once and in order, alarms of one session.
+  void ExpectOneAlone(
+      Seconds duration, const std::function<void()>& begin = [] {}) const {
+    std::set<std::int64_t> beating;
+    std::set<std::int64_t> commanding;
+    std::set<std::int64_t> alarming;
+    std::int64_t last_tick = -1;
+    std::int64_t last_answered = -1;
+    int ticks_again = 0;
+    int answered_again = 0;
+    const bus::Transport transport = bus::MakeTransport(url_);
+    bus::LiveExecutor executor(transport.lcm);
+    bus::Bus ear(transport.lcm, "system-test", executor);
+    ear.Subscribe<heartbeat_t>(bus::channel::kHeartbeat, [&](const heartbeat_t& heartbeat) {
+      if (heartbeat.heartbeat_node == GetParam()) beating.insert(heartbeat.session_id);
+    });
+    ear.Subscribe<fleet_state_t>(bus::channel::kFleetState, [&](const fleet_state_t& state) {
+      ticks_again += state.tick <= last_tick;
+      last_tick = state.tick;
+    });
+    ear.Subscribe<fleet_command_t>(bus::channel::kCmdFleet, [&](const fleet_command_t& command) {
+      commanding.insert(command.session_id);
+      answered_again += command.state_tick <= last_answered;
+      last_answered = command.state_tick;
+    });
+    ear.Subscribe<alarm_list_t>(bus::channel::kAlarms,
+                                [&](const alarm_list_t& list) { alarming.insert(list.session_id); });
+    begin();
+    executor.At(executor.Now() + bus::ToUtime(duration.count()), [&] { executor.Stop(); });
+    executor.Run();
+    EXPECT_EQ(beating.size(), 1U);
+    EXPECT_EQ(commanding.size(), 1U);
+    EXPECT_EQ(alarming.size(), 1U);
+    EXPECT_EQ(ticks_again, 0) << "of two simulators";
+    EXPECT_EQ(answered_again, 0) << "of two controllers";
+  }
+  std::int64_t Session() const {
+    std::int64_t session = 0;
+    Hears<heartbeat_t>(
+        url_, bus::channel::kHeartbeat,
+        [&](const heartbeat_t& heartbeat) {
+          if (heartbeat.heartbeat_node == GetParam()) session = heartbeat.session_id;
+          return session != 0;
+        },
+        5s);
+    return session;
+  }
+};
 
 TEST_P(OnlyOneTest, TheSecondStaysBackAndTakesOverWhenTheFirstDies) {
   StartAll();
   const auto second = Start(GetParam());
   ASSERT_TRUE(second->WaitForOutput("stands by", 10s)) << second->output();
-  // While both are there the first alone is heard under its name.
-  std::int64_t first_session = 0;
-  EXPECT_FALSE(Hears<heartbeat_t>(
-      url_, bus::channel::kHeartbeat,
-      [&](const heartbeat_t& heartbeat) {
-        if (heartbeat.heartbeat_node != GetParam()) return false;
-        if (first_session == 0) first_session = heartbeat.session_id;
-        return heartbeat.session_id != first_session;
-      },
-      3s));
+  ExpectOneAlone(3s);
+  const std::int64_t first_session = Session();
   nodes_[GetParam()]->Signal(SIGKILL);
   ASSERT_TRUE(second->WaitForOutput("takes over", 5s)) << second->output();
   EXPECT_TRUE(Hears<heartbeat_t>(
@@ -58,6 +101,27 @@ TEST_P(OnlyOneTest, TheSecondStaysBackAndTakesOverWhenTheFirstDies) {
         return heartbeat.heartbeat_node == GetParam() && heartbeat.session_id > first_session;
       },
       5s));
+  ExpectOneAlone(3s);
+}
+
+TEST_P(OnlyOneTest, OfTwoThatAreStartedAtOnceOneAloneFlies) {
+  for (int round = 0; round < 3; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round + 1));
+    std::unique_ptr<Process> one;
+    std::unique_ptr<Process> other;
+    ExpectOneAlone(6s, [&] {
+      for (const std::string& node : kNodes) {
+        if (node != GetParam()) nodes_[node] = Start(node);
+      }
+      one = Start(GetParam());
+      other = Start(GetParam());
+    });
+    const auto stands_by = [](Process& process) { return process.WaitForOutput("stands by", 0s); };
+    EXPECT_NE(stands_by(*one), stands_by(*other)) << one->output() << "\n" << other->output();
+    EXPECT_EQ(one->WaitForEnd(0s), std::nullopt) << one->output();
+    EXPECT_EQ(other->WaitForEnd(0s), std::nullopt) << other->output();
+    nodes_.clear();
+  }
 }
 
 TEST_P(OnlyOneTest, AFirstThatWasStoppedMeanwhileEndsWhenItGoesOn) {
