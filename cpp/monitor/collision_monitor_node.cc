@@ -188,6 +188,7 @@ void CollisionMonitorNode::HearCommands(const fleet_command_t& commands) {
 
 void CollisionMonitorNode::CheckLinks() {
   const Utime now = bus_.executor().Now();
+  if (held_up_.MustListen(now)) return;
   membership_.Forget(now);
   bool changed = false;
   std::vector<Notice> notices;

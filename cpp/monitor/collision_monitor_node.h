@@ -16,6 +16,7 @@
 #include "core/alert_levels.h"
 #include "monitor/alarm_desk.h"
 #include "monitor/clock_watch.h"
+#include "monitor/held_up.h"
 #include "monitor/link_alarms.h"
 #include "monitor/link_memory.h"
 #include "monitor/membership.h"
@@ -92,6 +93,7 @@ class CollisionMonitorNode {
   std::int64_t sweep_ = 0;
   std::int64_t link_sequence_ = 0;
   bus::Utime links_sent_ = 0;
+  HeldUp held_up_{bus::kSecond / 2};  // ten FLEET_STATE
 };
 
 }  // namespace skein::monitor

@@ -44,6 +44,7 @@ SilenceWatch::SilenceWatch(bus::Bus& bus, AlarmDesk& alarms) : bus_(bus), alarms
 
 void SilenceWatch::Look() {
   const bus::Utime now = bus_.executor().Now();
+  if (held_up_.MustListen(now)) return;
   std::erase_if(nodes_, [now](const auto& node) {
     return node.second.times < kKnown && now - node.second.heard >= kSilentAfter;
   });

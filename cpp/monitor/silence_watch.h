@@ -5,6 +5,7 @@
 
 #include "bus/bus.h"
 #include "monitor/alarm_desk.h"
+#include "monitor/held_up.h"
 
 namespace skein::monitor {
 
@@ -24,6 +25,7 @@ class SilenceWatch {
     int times = 0;
   };
   std::map<std::string, Node> nodes_;
+  HeldUp held_up_{2 * bus::kSecond};  // a heartbeat of everybody
 };
 
 }  // namespace skein::monitor

@@ -260,6 +260,25 @@ TEST_F(MonitorAlarms, TellANodeThatHasFallenSilent) {
   EXPECT_EQ(StateOf("node_silent:formation-controller"), kEnded);
 }
 
+TEST_F(MonitorAlarms, SayNothingOfASilenceInWhichTheMonitorItselfWasStopped) {
+  Start();
+  executor_.Every(bus::kSecond, [&] {
+    heartbeat_t heartbeat{};
+    heartbeat.utime = executor_.Now();
+    heartbeat.heartbeat_node = "formation-controller";
+    station_.Publish(bus::channel::kHeartbeat, heartbeat);
+  });
+  Run(10);
+  // Its timers are the first that run when it goes on.
+  executor_.SkipTo(executor_.Now() + 10 * bus::kSecond);
+  for (int i = 0; i < 100; ++i) {
+    Run(0.1);
+    EXPECT_FALSE(Find("node_silent:formation-controller"));
+    EXPECT_FALSE(Find("fleet_silent"));
+    EXPECT_FALSE(Find("link:1"));
+  }
+}
+
 TEST_F(MonitorAlarms, TellThatTheSourceOfTheFleetIsSilent) {
   Start();
   Run(10);
