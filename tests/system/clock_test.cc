@@ -6,6 +6,7 @@
 #include <skein/event_t.hpp>
 #include <skein/link_status_t.hpp>
 
+#include "system/fake_time.h"
 #include "system/faulty_flight.h"
 
 namespace skein::testing {
@@ -13,14 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
-
-std::string FakeTimeLibrary() {
-  for (const auto& folder : fs::directory_iterator("/usr/lib")) {
-    const fs::path file = folder.path() / "faketime/libfaketimeMT.so.1";
-    if (fs::exists(file)) return file.string();
-  }
-  return "";
-}
 
 class ClockTest : public FaultsTest, public ::testing::WithParamInterface<std::string> {
  protected:

@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const std::string kScenario = SKEIN_SOURCE_DIR "/tests/system/kills.json";
+const std::string kScenario = SKEIN_SOURCE_DIR "/tests/system/octagon.json";
 const std::string kSilentAlarm = std::string("node_silent:") + FlightWatch::kSilentNode;
 const std::vector<std::string> kNodes{"fleet-simulator", "formation-controller", "collision-monitor",
                                       "web-bridge", "flight-recorder"};

@@ -9,19 +9,26 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <skein/alarm_list_t.hpp>
+#include <skein/fleet_command_t.hpp>
+#include <skein/fleet_state_t.hpp>
 #include <skein/formation_status_t.hpp>
 #include <skein/link_status_t.hpp>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include "bus/bus.h"
 #include "bus/channels.h"
 #include "bus/live_executor.h"
 #include "bus/transport.h"
 #include "system/bus_ear.h"
+#include "system/fake_time.h"
 #include "system/hosts.h"
 #include "system/process.h"
 
@@ -42,6 +49,7 @@ Seconds Duration() {
 struct Heard {
   int statuses = 0;
   double worst_slot_m = 0;
+  double worst_climb_m = 0;                ///< to avoid somebody
   std::map<std::string, int> link_states;  ///< how often told
 };
 
@@ -50,9 +58,9 @@ class HostsTest : public ::testing::Test {
   void SetUp() override {
     if (geteuid() != 0) GTEST_SKIP() << "network namespaces need root";
     hosts_ = std::make_unique<Hosts>(std::vector<std::string>{"sim", "station", "operator"});
-    Start("sim", "fleet-simulator", {"--scenario", "turn"});
-    Start("station", "formation-controller", {"--scenario", "turn"});
-    Start("station", "collision-monitor", {"--scenario", "turn"});
+    Start("sim", "fleet-simulator", {"--scenario", scenario_});
+    Start("station", "formation-controller", {"--scenario", scenario_});
+    Start("station", "collision-monitor", {"--scenario", scenario_});
     ASSERT_TRUE(HoldsSlots(20, 30s));
     ASSERT_TRUE(LinksAre(link_status_t::LINK_UP, 30s));
   }
@@ -66,7 +74,7 @@ class HostsTest : public ::testing::Test {
   void Start(const std::string& host, const std::string& program, std::vector<std::string> options) {
     const Hosts::Stay stay = hosts_->On(host);
     options.insert(options.begin(), {Program(program), "--lcm-url", kUrl});
-    processes_[program] = std::make_unique<Process>(options);
+    processes_[program] = std::make_unique<Process>(options, environments_[host]);
   }
   bool HoldsSlots(double within_m, Seconds timeout) const {
     const Hosts::Stay stay = hosts_->On("operator");
@@ -97,6 +105,7 @@ class HostsTest : public ::testing::Test {
     ear.Subscribe<formation_status_t>(bus::channel::kFormationStatus, [&](const formation_status_t& status) {
       ++heard.statuses;
       heard.worst_slot_m = std::max(heard.worst_slot_m, Worst(status));
+      heard.worst_climb_m = std::max(heard.worst_climb_m, std::abs(status.avoidance_up_m));
     });
     ear.Subscribe<link_status_t>(bus::channel::kLinkStatus, [&](const link_status_t& status) {
       for (const vehicle_link_t& link : status.links) {
@@ -118,20 +127,97 @@ class HostsTest : public ::testing::Test {
                                            {link_status_t::LINK_LATE, "late"},
                                            {link_status_t::LINK_LOST, "lost"},
                                            {link_status_t::LINK_UNKNOWN, "unknown"}};
+  std::string scenario_ = "turn";
+  std::map<std::string, std::map<std::string, std::string>>
+      environments_;  ///< added to that of programs on a host
   std::unique_ptr<Hosts> hosts_;
   std::map<std::string, std::unique_ptr<Process>> processes_;
 };
 
-TEST_F(HostsTest, FlyInFormationOverABadNetwork) {
+/// On a path that turns from the start on.
+class TurningHostsTest : public HostsTest {
+ protected:
+  TurningHostsTest() { scenario_ = SKEIN_SOURCE_DIR "/tests/system/octagon.json"; }
+
+  /// What UAVs are like by the simulator's host, until `is_it` says so of all of them.
+  bool UavsAre(const std::function<bool(const vehicle_state_t& before, const vehicle_state_t& now)>& is_it,
+               Seconds timeout) const {
+    const Hosts::Stay stay = hosts_->On("sim");
+    std::map<int, vehicle_state_t> before;
+    return Hears<fleet_state_t>(
+        kUrl, bus::channel::kFleetState,
+        [&](const fleet_state_t& state) {
+          std::size_t those = 0;
+          for (const vehicle_state_t& uav : state.vehicles) {
+            const auto [was, first] = before.try_emplace(uav.id, uav);
+            those += !first && is_it(was->second, uav);
+            was->second = uav;
+          }
+          return those == 3;
+        },
+        timeout);
+  }
+  bool AllTurn(Seconds timeout) const {
+    return UavsAre(
+        [](const vehicle_state_t& before, const vehicle_state_t& now) {
+          return std::abs(now.course_rad - before.course_rad) >
+                 0.02 * bus::ToSeconds(now.utime - before.utime);
+        },
+        timeout);
+  }
+  struct Answers {
+    int ticks = 0;
+    int late = 0;  ///< later than a tick, or never
+    double latest_ms = 0;
+  };
+  /// How soon the controller answers the ticks that get through to its host.
+  Answers ListenAtStation(Seconds duration) const {
+    const Hosts::Stay stay = hosts_->On("station");
+    const bus::Transport transport = bus::MakeTransport(kUrl);
+    bus::LiveExecutor executor(transport.lcm);
+    bus::Bus ear(transport.lcm, "system-test", executor);
+    std::map<std::int64_t, bus::Utime> open;
+    std::int64_t newest = 0;
+    Answers answers;
+    ear.Subscribe<fleet_state_t>(bus::channel::kFleetState, [&](const fleet_state_t& state) {
+      // One that was overtaken is not answered.
+      if (state.tick <= std::exchange(newest, std::max(newest, state.tick))) return;
+      open[state.tick] = executor.Now();
+      ++answers.ticks;
+    });
+    ear.Subscribe<fleet_command_t>(bus::channel::kCmdFleet, [&](const fleet_command_t& command) {
+      const auto tick = open.find(command.state_tick);
+      if (tick == open.end()) return;
+      const double after_ms = 1e3 * bus::ToSeconds(executor.Now() - tick->second);
+      answers.latest_ms = std::max(answers.latest_ms, after_ms);
+      answers.late += after_ms > 50;
+      open.erase(tick);
+    });
+    executor.At(executor.Now() + bus::ToUtime(duration.count()), [&] { executor.Stop(); });
+    executor.Run();
+    answers.late += static_cast<int>(open.size()) - static_cast<int>(open.contains(newest));
+    return answers;
+  }
+};
+
+TEST_F(TurningHostsTest, FlyInFormationOverABadNetwork) {
   hosts_->SetWire(R"({"loss": 0.1, "delay_s": 0.2, "jitter_s": 0.05, "duplicate": 0.02})");
+  ASSERT_TRUE(AllTurn(30s));
+  Answers answers;
+  std::thread at_station([&] { answers = ListenAtStation(Duration()); });
   Heard heard = Listen(Duration());
+  at_station.join();
   std::cout << "10% loss, 200 ms +- 50 ms, 2% doubled, for " << Duration().count() << " s: slots within "
             << heard.worst_slot_m << " m; links told up " << heard.link_states["up"] << ", late "
-            << heard.link_states["late"] << ", lost " << heard.link_states["lost"] << " times\n";
+            << heard.link_states["late"] << ", lost " << heard.link_states["lost"] << " times; of "
+            << answers.ticks << " ticks answered late " << answers.late << ", at most after "
+            << answers.latest_ms << " ms\n";
   EXPECT_GT(heard.statuses, 0);
   EXPECT_LE(heard.worst_slot_m, 20);
   EXPECT_GT(heard.link_states["up"], 0);
   EXPECT_EQ(heard.link_states["lost"], 0);
+  EXPECT_GT(answers.ticks, 10 * Duration().count());
+  EXPECT_EQ(answers.late, 0);
 }
 
 TEST_F(HostsTest, FindEachOtherAgainWhenTheNetworkWasApart) {
@@ -152,7 +238,7 @@ TEST_F(HostsTest, FindEachOtherAgainWhenTheNetworkWasApart) {
 }
 
 /// What comes back, comes back by itself: nobody is started again.
-class CutOffTest : public HostsTest, public ::testing::WithParamInterface<std::string> {
+class CutOffTest : public TurningHostsTest, public ::testing::WithParamInterface<std::string> {
  protected:
   void CutOff() const {
     if (GetParam() == "route") return hosts_->Ip(GetHost(), {"route", "del", "224.0.0.0/4"});
@@ -166,9 +252,23 @@ class CutOffTest : public HostsTest, public ::testing::WithParamInterface<std::s
 };
 
 TEST_P(CutOffTest, GoesOnWhenItIsBack) {
+  ASSERT_TRUE(AllTurn(30s));
   CutOff();
-  // What is tried is a cut that is longer than it takes to call a link lost.
-  std::this_thread::sleep_for(6s);
+  const auto cut = Clock::now();
+  // A second after the last command each UAV holds speed and course, level, and goes on doing so. What is
+  // tried is a cut that is longer than it takes to call a link lost.
+  const auto holds = [](const vehicle_state_t& before, const vehicle_state_t& now) {
+    return std::abs(now.course_rad - before.course_rad) < 1e-4 && std::abs(now.climb_rad) < 1e-3 &&
+           std::abs(now.speed_m_s - before.speed_m_s) < 1e-3;
+  };
+  EXPECT_TRUE(UavsAre(holds, 2s));
+  EXPECT_FALSE(UavsAre([&](const auto& before, const auto& now) { return !holds(before, now); },
+                       6s - (Clock::now() - cut)));
+  {
+    const Hosts::Stay stay = hosts_->On("operator");
+    EXPECT_FALSE(Hears<formation_status_t>(
+        kUrl, bus::channel::kFormationStatus, [](const auto&) { return true; }, 1s));
+  }
   Restore();
   EXPECT_TRUE(LinksAre(link_status_t::LINK_UP, 15s));
   EXPECT_TRUE(HoldsSlots(20, 200s));
@@ -176,6 +276,51 @@ TEST_P(CutOffTest, GoesOnWhenItIsBack) {
 
 INSTANTIATE_TEST_SUITE_P(Station, CutOffTest, ::testing::Values("route", "interface"),
                          [](const auto& named) { return named.param; });
+
+/// The clock of the station is off from that of the others.
+class ClockOffTest : public HostsTest, public ::testing::WithParamInterface<std::string> {
+ protected:
+  ClockOffTest() {
+    environments_["station"] = {{"LD_PRELOAD", FakeTimeLibrary()},
+                                {"FAKETIME", GetParam()},
+                                {"FAKETIME_DONT_FAKE_MONOTONIC", "1"},
+                                {"SKEIN_CLOCK_FILE", folder_ + "/station-clock"}};
+  }
+  ~ClockOffTest() override {
+    processes_.clear();
+    std::filesystem::remove_all(folder_);
+  }
+  const std::string folder_ = FreshFolder("skein-hosts");
+};
+
+TEST_P(ClockOffTest, IsToldAndFakesNoLostLink) {
+  ASSERT_NE(FakeTimeLibrary(), "") << "libfaketime is missing: scripts/setup test";
+  {
+    const Hosts::Stay stay = hosts_->On("operator");
+    const std::string text = std::string("the clock of fleet-simulator is 2.0 s ") +
+                             (GetParam() == "+2" ? "behind" : "ahead of") +
+                             " the monitor's: synchronise the hosts";
+    std::string told;
+    EXPECT_TRUE(Hears<alarm_list_t>(
+        kUrl, bus::channel::kAlarms,
+        [&](const alarm_list_t& list) {
+          for (const alarm_t& alarm : list.alarms) {
+            if (alarm.condition == "clock:fleet-simulator") told = alarm.text;
+          }
+          return told == text;
+        },
+        10s))
+        << told;
+  }
+  Heard heard = Listen(8s);
+  EXPECT_GT(heard.link_states["up"], 0);
+  EXPECT_EQ(heard.link_states["late"] + heard.link_states["lost"] + heard.link_states["unknown"], 0);
+  EXPECT_LE(heard.worst_slot_m, 20);
+  EXPECT_EQ(heard.worst_climb_m, 0) << "somebody is avoided";
+}
+
+INSTANTIATE_TEST_SUITE_P(Station, ClockOffTest, ::testing::Values("+2", "-2"),
+                         [](const auto& named) { return named.param == "+2" ? "Ahead" : "Behind"; });
 
 TEST_F(HostsTest, KeepThePageAndItsCommandsOverABadNetwork) {
   Start("operator", "web-bridge", {"--port", "8080"});

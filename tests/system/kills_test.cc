@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -26,11 +28,10 @@ namespace {
 using namespace std::chrono_literals;
 using nlohmann::json;
 
-const std::string kScenario = SKEIN_SOURCE_DIR "/tests/system/kills.json";
 const std::string kSilentAlarm = std::string("node_silent:") + FlightWatch::kSilentNode;
 const std::vector<std::string> kProcesses{"fleet-simulator", "formation-controller", "collision-monitor",
                                           "web-bridge",      "flight-recorder",      "lcm-logger"};
-constexpr int kCutUav = 3;  // by the scenario, for 16 s on every second side of its path
+constexpr int kCutUav = 3;
 constexpr double kBack_s = 2;
 
 /// A page that asks for control, and comes back with its token when the bridge was gone.
@@ -86,8 +87,19 @@ std::vector<std::string> Victims(int kills, std::mt19937& random) {
   return victims;
 }
 
+/// The octagon, on every second side of which a UAV's link is cut.
+std::string ScenarioWithCuts(const std::string& folder) {
+  json scenario = json::parse(std::ifstream(SKEIN_SOURCE_DIR "/tests/system/octagon.json"));
+  scenario["timeline"] = {{{"at_s", 44}, {"cut_link", kCutUav}, {"for_s", 16}}};
+  scenario["timeline_repeat_s"] = 158.1;
+  const std::string file = folder + "/octagon-with-cuts.json";
+  std::ofstream(file) << scenario.dump(1);
+  return file;
+}
+
 class KillsTest : public ::testing::Test {
  protected:
+  ~KillsTest() override { std::filesystem::remove_all(folder_); }
   void SetUp() override {
     std::cout << "seed " << seed_ << ", " << kills_ << " kills in " << flight_s_ << " s\n";
     ASSERT_TRUE(run_.WaitForOutput("http://127.0.0.1:" + std::to_string(port_), 60s)) << run_.output();
@@ -161,8 +173,10 @@ class KillsTest : public ::testing::Test {
   std::mt19937 random_{seed_};
   const std::string url_ = FreshLcmUrl();
   const int port_ = FreeTcpPort();
-  FlightJudge judge_{kScenario, flight_s_ + 120};
-  Process run_{{std::string(SKEIN_SOURCE_DIR) + "/scripts/run", kScenario, "--port", std::to_string(port_),
+  const std::string folder_ = FreshFolder("skein-kills");
+  const std::string scenario_ = ScenarioWithCuts(folder_);
+  FlightJudge judge_{scenario_, flight_s_ + 120};
+  Process run_{{std::string(SKEIN_SOURCE_DIR) + "/scripts/run", scenario_, "--port", std::to_string(port_),
                 "--lcm-url", url_}};
   FlightWatch watch_{url_, judge_};
   alarm_t alarm_{};
